@@ -23,7 +23,11 @@ struct OddWords {
 };
 
 /// Folders that still have odd words. Lower a count when it falls.
-const std::map<std::string, OddWords> recorded = {{"renderer/scene", {66, 81}}};
+const std::map<std::string, OddWords> recorded = {
+    {"renderer/member_json", {11, 14}},
+    {"renderer/scene", {36, 42}},
+    {"renderer/scene_json", {19, 25}},
+};
 
 constexpr std::array starts_of_no_sentence = {"What ", "Whether ", "Who ", "It ", "They ", "Of "};
 constexpr std::array starts_of_no_comment = {"Where ", "Whose ",   "That ",  "Its ",      "So ",

@@ -190,7 +190,7 @@ TEST(Layers, each_library_is_seen_in_one_place) {
       {"mujoco/", "tests/oracle/"},
       {"ode/", "tests/oracle/"},
       {"sdf/", "tests/oracle/"},
-      {"netinet/in.h", "tests/renderer/cli/"},
+      {"netinet/in.h", "tests/renderer/jobs/"},
       {"netinet/in.h", "tests/renderer/inspect/"},
       {"stb/stb_image.h", "tests/renderer/"},
       {"minkray/", "tests/renderer/library/"},
