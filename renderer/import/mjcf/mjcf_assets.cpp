@@ -9,6 +9,7 @@
 #include "renderer/import/mjcf/mjcf_builtin.h"
 #include "renderer/import/mjcf/mjcf_height_field.h"
 #include "renderer/import/model/hull_mass.h"
+#include "renderer/import/model/mesh_hull.h"
 #include "renderer/import/model/orientation.h"
 
 namespace minkray {

@@ -43,7 +43,7 @@ std::string place(const std::string& argument, const char* member, std::size_t i
 }
 
 /// The pose of (x, y, z, qw, qx, qy, qz).
-Affine<double> pose_of(const double* numbers, const std::string& argument, std::size_t index) {
+Affine<double> pose_at(const double* numbers, const std::string& argument, std::size_t index) {
   for (std::size_t k = 0; k < numbers_of_quaternion_pose; ++k)
     if (!std::isfinite(numbers[k])) [[unlikely]]
       wrong_use(place(argument, ".poses", index) + "[" + std::to_string(k) +
@@ -122,7 +122,7 @@ void BodiesOfPairs::read(std::size_t i, PosedBody& body) const {
   const double* const numbers = reinterpret_cast<const double*>(
       reinterpret_cast<const char*>(given_.poses) + static_cast<std::ptrdiff_t>(i) * pose_step_);
   if (given_.pose_kind == MINKRAY_POSE_QUATERNION) {
-    body.pose_ = pose_of(numbers, argument_, i);
+    body.pose_ = pose_at(numbers, argument_, i);
     return;
   }
   if (given_.pose_kind == MINKRAY_POSE_MATRIX_4X4) check_last_row(numbers + 12, argument_, i);

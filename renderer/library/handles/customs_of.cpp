@@ -13,7 +13,7 @@ using Customs = std::vector<std::shared_ptr<const CustomSupport>>;
 
 /// Visits each once, however often it occurs in the shape: a sum of a shape with itself, made
 /// twenty times over, has it a million times.
-class Walk {
+class CustomsWalk {
  public:
   void of(const Shape<double>& shape) {
     std::visit(
@@ -45,7 +45,7 @@ class Walk {
 }  // namespace
 
 Customs customs_of(const Shape<double>& shape) {
-  Walk walk;
+  CustomsWalk walk;
   walk.of(shape);
   return std::move(walk.customs);
 }

@@ -9,7 +9,7 @@
 namespace minkray {
 namespace {
 
-class Walk {
+class NestingWalk {
  public:
   void of(const Shape<double>& shape) {
     if (++count_ > most_shapes_in_one)
@@ -39,7 +39,7 @@ class Walk {
 }  // namespace
 
 void check_nesting(const Shape<double>& shape) {
-  Walk().of(shape);
+  NestingWalk().of(shape);
 }
 
 }  // namespace minkray
