@@ -13,7 +13,7 @@
 #include <optional>
 
 #include "bench/contact/peers.h"
-#include "core/contact/impact.h"
+#include "core/pair_motion/impact.h"
 
 namespace {
 

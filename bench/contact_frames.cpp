@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Benefit of a memory of pairs from frame to frame (core/contact/pair_memory.h), on real motion:
+// Benefit of a memory of pairs from frame to frame (core/pair/pair_memory.h), on real motion:
 //
 //   contact-frames [--bodies N] [--frames N] [ROBOT JOINTS.csv]
 //
@@ -17,7 +17,7 @@
 #include <random>
 #include <string>
 
-#include "core/contact/impact.h"
+#include "core/pair_motion/impact.h"
 #include "core/world/near_pairs.h"
 #include "renderer/clearance/bodies.h"
 #include "renderer/clearance/step_motion.h"

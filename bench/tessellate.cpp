@@ -5,7 +5,7 @@
 
 #include "core/derived/shape_bounds.h"
 #include "core/geometry/convex_hull.h"
-#include "core/shape/surface.h"
+#include "core/support/surface.h"
 
 namespace minkray::bench {
 namespace {

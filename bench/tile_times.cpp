@@ -9,7 +9,7 @@
 
 #include "core/parallel/parallel.h"
 #include "renderer/film/render.h"
-#include "renderer/scene/scene_json.h"
+#include "renderer/scene_json/scene_json.h"
 
 namespace {
 

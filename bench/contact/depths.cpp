@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "bench/contact/peers.h"
-#include "core/contact/signed_distance.h"
+#include "core/pair_distance/signed_distance.h"
 
 namespace minkray::bench {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/contact/distance.h"
+#include "core/shape_cast/distance.h"
 
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
@@ -8,7 +8,7 @@
 #include <algorithm>
 
 #include "bench/contact/peers.h"
-#include "core/contact/signed_distance.h"
+#include "core/pair_distance/signed_distance.h"
 
 namespace minkray::bench {
 namespace {

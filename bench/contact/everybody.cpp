@@ -11,8 +11,8 @@
 #include <random>
 #include <sstream>
 
-#include "core/contact/signed_distance.h"
 #include "core/geometry/convex_hull.h"
+#include "core/pair_distance/signed_distance.h"
 
 namespace minkray::bench {
 namespace {

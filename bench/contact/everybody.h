@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "core/contact/contact_shape.h"
+#include "core/pair/contact_shape.h"
 
 namespace minkray::bench {
 

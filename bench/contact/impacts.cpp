@@ -6,8 +6,8 @@
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
 #include "bench/contact/peers.h"
-#include "core/contact/impact.h"
-#include "core/contact/shape_cast.h"
+#include "core/pair_motion/impact.h"
+#include "core/shape_cast/shape_cast.h"
 
 namespace minkray::bench {
 namespace {

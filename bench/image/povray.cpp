@@ -17,7 +17,7 @@
 #include "bench/image/statistics.h"
 #include "renderer/generate/generate.h"
 #include "renderer/json/json.h"
-#include "renderer/scene/scene_json.h"
+#include "renderer/scene_json/scene_json.h"
 #include "tests/support/temporary_folder.h"
 
 namespace minkray::bench {

@@ -5,8 +5,8 @@
 
 #include "bench/image/subject.h"
 #include "core/derived/shape_bounds.h"
-#include "renderer/light/reflection.h"
-#include "renderer/light/sampler.h"
+#include "renderer/rays/sampler.h"
+#include "renderer/surfaces/reflection.h"
 
 namespace minkray::bench {
 

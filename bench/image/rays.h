@@ -5,7 +5,7 @@
 
 #include "bench/image/tracer.h"
 #include "renderer/image/image.h"
-#include "renderer/light/camera.h"
+#include "renderer/rays/camera.h"
 
 namespace minkray::bench {
 

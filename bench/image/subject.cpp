@@ -7,7 +7,7 @@
 #include "renderer/generate/generate.h"
 #include "renderer/generate/random.h"
 #include "renderer/scene/scene_instances.h"
-#include "renderer/scene/scene_json.h"
+#include "renderer/scene_json/scene_json.h"
 #include "tests/support/temporary_folder.h"
 
 namespace minkray::bench {

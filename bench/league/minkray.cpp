@@ -2,10 +2,10 @@
 // Minkray itself, in double and in float: shapes are prepared once, as its users would.
 #include "bench/league/adapter.h"
 #include "core/cast/cast.h"
-#include "core/contact/distance.h"
-#include "core/contact/shape_cast.h"
-#include "core/contact/signed_distance.h"
 #include "core/derived/convert.h"
+#include "core/pair_distance/signed_distance.h"
+#include "core/shape_cast/distance.h"
+#include "core/shape_cast/shape_cast.h"
 #include "renderer/query/query_json.h"
 
 namespace {

@@ -6,7 +6,7 @@
 #include "core/derived/sandwich.h"
 #include "core/geometry/convex_hull.h"
 #include "core/mesh/triangle_mesh.h"
-#include "renderer/import/mesh_hull.h"
+#include "renderer/import/model/mesh_hull.h"
 
 namespace minkray {
 namespace {

@@ -4,9 +4,9 @@
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
 #include "bench/papers/comparisons.h"
-#include "core/contact/distance.h"
-#include "core/contact/shape_cast.h"
 #include "core/derived/convert.h"
+#include "core/shape_cast/distance.h"
+#include "core/shape_cast/shape_cast.h"
 
 namespace minkray::bench {
 namespace {

@@ -7,8 +7,8 @@
 #include <array>
 
 #include "bench/papers/comparisons.h"
-#include "core/contact/distance.h"
 #include "core/derived/convert.h"
+#include "core/shape_cast/distance.h"
 
 namespace minkray::bench {
 namespace {

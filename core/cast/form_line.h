@@ -8,8 +8,8 @@
 
 #include "core/cast/prepared_shape.h"
 #include "core/exact/form.h"
-#include "core/exact/line.h"
 #include "core/math/wide.h"
+#include "core/query/line.h"
 
 namespace minkray {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/math/bounds.h"
-#include "core/shape/support_mapped.h"
+#include "core/support/support_mapped.h"
 
 namespace minkray {
 

@@ -2,7 +2,7 @@
 // Finds where a line enters a ball around the origin.
 #pragma once
 
-#include "core/exact/line.h"
+#include "core/query/line.h"
 #include "core/query/tolerances.h"
 
 namespace minkray::exact {

@@ -3,7 +3,7 @@
 // if none has been left by then.
 #pragma once
 
-#include "core/exact/line.h"
+#include "core/query/line.h"
 
 namespace minkray::exact {
 

@@ -8,10 +8,10 @@
 #include "core/exact/cylinder.h"
 #include "core/exact/form.h"
 #include "core/exact/frustum.h"
-#include "core/exact/polytope.h"
 #include "core/exact/rounded_box.h"
 #include "core/exact/tapered_capsule.h"
 #include "core/exact/turned_capsule.h"
+#include "core/polytope/polytope.h"
 
 namespace minkray::exact {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/exact/cut_cylinder.h"
-#include "core/exact/polytope.h"
 #include "core/exact/turned_capsule.h"
+#include "core/polytope/polytope.h"
 
 namespace minkray::exact {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A shape's closed form prepared for casts: its declaration (core/shape/exact_form.h), relative to
-// the middle of the shape's bounding ball.
+// A shape's closed form prepared for casts: its declaration (core/support/exact_form.h), relative
+// to the middle of the shape's bounding ball.
 #pragma once
 
 #include <memory>
 
 #include "core/math/vec.h"
-#include "core/shape/exact_form.h"
+#include "core/support/exact_form.h"
 
 namespace minkray::exact {
 

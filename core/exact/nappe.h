@@ -3,7 +3,7 @@
 // by frustums and tapered capsules.
 #pragma once
 
-#include "core/exact/line.h"
+#include "core/query/line.h"
 
 namespace minkray::exact {
 

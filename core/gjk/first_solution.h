@@ -16,7 +16,7 @@
 #include "core/query/ray_near_ball.h"
 #include "core/query/result.h"
 #include "core/query/tolerances.h"
-#include "core/shape/support_mapped.h"
+#include "core/support/support_mapped.h"
 
 namespace minkray {
 

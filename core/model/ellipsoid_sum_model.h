@@ -7,8 +7,8 @@
 
 #include <optional>
 
+#include "core/derived/ellipsoid_sum.h"
 #include "core/model/smooth_model.h"
-#include "core/shape/ellipsoid_sum.h"
 
 namespace minkray {
 

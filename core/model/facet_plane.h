@@ -5,7 +5,7 @@
 
 #include "core/model/line_cast.h"
 #include "core/query/ray_frame.h"
-#include "core/shape/declared.h"
+#include "core/support/declared.h"
 
 namespace minkray {
 

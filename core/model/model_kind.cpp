@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/model_kind.h"
 
-#include "core/shape/declared.h"
-#include "core/shape/ellipsoid_sum.h"
-#include "core/shape/surface.h"
+#include "core/derived/ellipsoid_sum.h"
+#include "core/support/declared.h"
+#include "core/support/surface.h"
 
 namespace minkray {
 namespace {

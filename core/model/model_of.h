@@ -10,8 +10,8 @@
 #include "core/model/sums_model.h"
 #include "core/model/superellipsoid_model.h"
 #include "core/model/translates_model.h"
-#include "core/shape/declared.h"
 #include "core/shape/shape.h"
+#include "core/support/declared.h"
 
 namespace minkray {
 

@@ -4,14 +4,14 @@
 #include <mutex>
 #include <optional>
 
+#include "core/derived/as_rounded_box.h"
 #include "core/derived/convert.h"
 #include "core/derived/proportions.h"
 #include "core/derived/recentred.h"
 #include "core/derived/shape_bounds.h"
-#include "core/exact/polytope.h"
+#include "core/polytope/polytope.h"
 #include "core/query/tolerances.h"
-#include "core/shape/as_rounded_box.h"
-#include "core/shape/declared.h"
+#include "core/support/declared.h"
 
 namespace minkray {
 namespace {

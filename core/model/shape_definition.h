@@ -6,13 +6,13 @@
 
 #include <memory>
 
+#include "core/derived/ellipsoid_sum.h"
 #include "core/exact/form.h"
 #include "core/math/affine.h"
 #include "core/math/bounds.h"
 #include "core/math/two_fold.h"
 #include "core/model/model_kind.h"
 #include "core/query/tolerances.h"
-#include "core/shape/ellipsoid_sum.h"
 #include "core/shape/shape.h"
 
 namespace minkray {

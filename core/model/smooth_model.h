@@ -7,7 +7,7 @@
 
 #include "core/model/hull_cast.h"
 #include "core/model/line_cast.h"
-#include "core/shape/jet.h"
+#include "core/support/jet.h"
 
 namespace minkray {
 

@@ -3,7 +3,7 @@
 // which it was found.
 #pragma once
 
-#include "core/shape/ellipsoid_sum.h"
+#include "core/derived/ellipsoid_sum.h"
 
 namespace minkray {
 

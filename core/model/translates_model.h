@@ -6,8 +6,8 @@
 #include "core/model/entered_facet.h"
 #include "core/model/hull_cast.h"
 #include "core/model/line_cast.h"
-#include "core/shape/jet.h"
-#include "core/shape/support_where.h"
+#include "core/support/jet.h"
+#include "core/support/support_where.h"
 
 namespace minkray {
 

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "core/contact/signed_distance.h"
-#include "core/contact/triangle_part.h"
+#include "core/pair/triangle_part.h"
+#include "core/pair_distance/signed_distance.h"
 
 namespace minkray {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/contact/core_support.h"
+#include "core/pair/core_support.h"
 
 namespace minkray {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "core/contact/triangle_part.h"
+#include "core/pair/triangle_part.h"
 #include "core/parts/parts_body.h"
 
 namespace minkray {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/parts/parts_body.h"
 
-#include "core/contact/core_support.h"
+#include "core/pair/core_support.h"
 
 namespace minkray {
 

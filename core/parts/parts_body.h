@@ -2,8 +2,8 @@
 // Input of queries on pairs: a convex shape, or a mesh, whose parts are its triangles.
 #pragma once
 
-#include "core/contact/contact_shape.h"
 #include "core/mesh/triangle_mesh.h"
+#include "core/pair/contact_shape.h"
 
 namespace minkray {
 

@@ -3,8 +3,8 @@
 // parts that are nearest or touch first.
 #pragma once
 
-#include "core/contact/manifold.h"
-#include "core/contact/pair_derivative.h"
+#include "core/pair_derivative/pair_derivative.h"
+#include "core/pair_distance/manifold.h"
 #include "core/parts/parts_body.h"
 
 namespace minkray {

@@ -3,7 +3,7 @@
 // Parts are convex, so bounds of parts are bounds of the whole.
 #pragma once
 
-#include "core/contact/signed_distance.h"
+#include "core/pair_distance/signed_distance.h"
 #include "core/parts/parts_body.h"
 
 namespace minkray {

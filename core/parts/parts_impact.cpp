@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/parts/parts_impact.h"
 
-#include "core/contact/earliest_impact.h"
+#include "core/pair_motion/earliest_impact.h"
 #include "core/parts/one_part.h"
 #include "core/parts/pair_walk.h"
 #include "core/parts/parts_distance.h"

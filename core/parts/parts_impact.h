@@ -3,7 +3,7 @@
 // of their parts.
 #pragma once
 
-#include "core/contact/impact.h"
+#include "core/pair_motion/impact.h"
 #include "core/parts/parts_body.h"
 
 namespace minkray {

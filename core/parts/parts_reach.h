@@ -3,7 +3,7 @@
 // measures a body's height above a half-space.
 #pragma once
 
-#include "core/contact/half_space_distance.h"
+#include "core/pair_distance/half_space_distance.h"
 #include "core/parts/parts_body.h"
 
 namespace minkray {

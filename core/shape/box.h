@@ -4,10 +4,10 @@
 #pragma once
 
 #include "core/math/vec.h"
-#include "core/shape/declared.h"
-#include "core/shape/exact_form.h"
-#include "core/shape/field.h"
-#include "core/shape/jet.h"
+#include "core/support/declared.h"
+#include "core/support/exact_form.h"
+#include "core/support/field.h"
+#include "core/support/jet.h"
 
 namespace minkray {
 

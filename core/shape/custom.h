@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "core/math/vec.h"
-#include "core/shape/declared.h"
-#include "core/shape/field.h"
-#include "core/shape/jet.h"
+#include "core/support/declared.h"
+#include "core/support/field.h"
+#include "core/support/jet.h"
 
 namespace minkray {
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "core/math/vec.h"
-#include "core/shape/field.h"
-#include "core/shape/jet.h"
+#include "core/support/field.h"
+#include "core/support/jet.h"
 
 namespace minkray {
 

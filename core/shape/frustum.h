@@ -5,8 +5,8 @@
 #include <array>
 
 #include "core/shape/disk.h"
-#include "core/shape/exact_form.h"
-#include "core/shape/jet.h"
+#include "core/support/exact_form.h"
+#include "core/support/jet.h"
 
 namespace minkray {
 

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "core/geometry/point_cloud.h"
-#include "core/shape/declared.h"
-#include "core/shape/field.h"
-#include "core/shape/jet.h"
+#include "core/support/declared.h"
+#include "core/support/field.h"
+#include "core/support/jet.h"
 
 namespace minkray {
 

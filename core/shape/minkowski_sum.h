@@ -3,9 +3,9 @@
 #pragma once
 
 #include "core/math/vec.h"
-#include "core/shape/field.h"
-#include "core/shape/jet.h"
-#include "core/shape/nested.h"
+#include "core/support/field.h"
+#include "core/support/jet.h"
+#include "core/support/nested.h"
 
 namespace minkray {
 

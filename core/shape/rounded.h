@@ -3,10 +3,10 @@
 #pragma once
 
 #include "core/math/vec.h"
-#include "core/shape/exact_form.h"
-#include "core/shape/field.h"
-#include "core/shape/jet.h"
-#include "core/shape/nested.h"
+#include "core/support/exact_form.h"
+#include "core/support/field.h"
+#include "core/support/jet.h"
+#include "core/support/nested.h"
 
 namespace minkray {
 

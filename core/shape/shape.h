@@ -25,10 +25,10 @@
 #include "core/shape/segment.h"
 #include "core/shape/sphere.h"
 #include "core/shape/superellipsoid.h"
-#include "core/shape/support_mapped.h"
 #include "core/shape/tapered_capsule.h"
 #include "core/shape/transform.h"
 #include "core/shape/triangle.h"
+#include "core/support/support_mapped.h"
 
 namespace minkray {
 

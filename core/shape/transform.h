@@ -2,10 +2,10 @@
 // A shape under an invertible affine map: moved, turned, scaled, sheared, mirrored.
 #pragma once
 
-#include "core/shape/affine_map.h"
-#include "core/shape/field.h"
-#include "core/shape/jet.h"
-#include "core/shape/nested.h"
+#include "core/support/affine_map.h"
+#include "core/support/field.h"
+#include "core/support/jet.h"
+#include "core/support/nested.h"
 
 namespace minkray {
 

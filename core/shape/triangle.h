@@ -5,9 +5,9 @@
 #include <array>
 
 #include "core/math/vec.h"
-#include "core/shape/exact_form.h"
-#include "core/shape/field.h"
-#include "core/shape/jet.h"
+#include "core/support/exact_form.h"
+#include "core/support/field.h"
+#include "core/support/jet.h"
 
 namespace minkray {
 

@@ -31,7 +31,7 @@ using D = Wide<double, 4, IsaAvx2>;
   return {column[0], column[1], column[2]};
 }
 
-/// `joined` of core/cast/instance_place.h for four numbers of a place.
+/// `joined` of core/screen/instance_place.h for four numbers of a place.
 [[gnu::always_inline]] inline __m256d joined(const float* leading, const std::int32_t* trailing) {
   const __m256d number = _mm256_cvtps_pd(_mm_loadu_ps(leading));
   if (!trailing) return number;

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/bvh/bvh.h"
-#include "core/cast/form_in_lanes.h"
+#include "core/screen/form_in_lanes.h"
 #include "core/world/ray_block.h"
 
 #if defined(__AVX2__)

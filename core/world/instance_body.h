@@ -5,8 +5,8 @@
 
 #include <memory>
 
-#include "core/cast/screen.h"
 #include "core/model/shape_definition.h"
+#include "core/screen/screen.h"
 
 namespace minkray {
 

@@ -14,10 +14,10 @@
 
 #include "core/bvh/bvh.h"
 #include "core/cast/form_cast.h"
-#include "core/cast/instance_place.h"
 #include "core/cast/prepared_shape.h"
-#include "core/cast/screen.h"
 #include "core/parallel/first_touch.h"
+#include "core/screen/instance_place.h"
+#include "core/screen/screen.h"
 #include "core/world/half_space.h"
 #include "core/world/instance_body.h"
 #include "core/world/movement.h"

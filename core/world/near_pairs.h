@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/bvh/bvh.h"
-#include "core/contact/signed_distance.h"
+#include "core/pair_distance/signed_distance.h"
 #include "core/parts/parts_body.h"
 
 namespace minkray {

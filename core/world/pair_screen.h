@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/bvh/stream.h"
-#include "core/cast/screen.h"
+#include "core/screen/screen.h"
 #include "core/world/world_ray.h"
 
 namespace minkray {

@@ -6,7 +6,7 @@
 
 #include "core/bvh/bvh.h"
 #include "core/cast/packet_cast.h"
-#include "core/cast/screen.h"
+#include "core/screen/screen.h"
 #include "core/world/instances.h"
 
 namespace minkray {

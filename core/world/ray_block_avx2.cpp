@@ -2,8 +2,8 @@
 // Everything here has internal linkage or the type of the lanes in its name: see core/math/wide.h.
 #include "core/world/ray_block.h"
 
-#include "core/cast/form_in_lanes.h"
 #include "core/query/tolerances.h"
+#include "core/screen/form_in_lanes.h"
 #include "core/world/block_of_rays.h"
 
 #if defined(__AVX2__)
@@ -48,7 +48,7 @@ void see(const Block& block, const InstancePlace& place, const ScreenForm& form,
     dd += d * d;
     for (int column = 0; column < 3; ++column) seen.map[row][column] = W(scale * m[3 * column]);
   }
-  // Magnitude of all numbers that were added up: see `look` of core/cast/screen_kernel_avx2.cpp,
+  // Magnitude of all numbers that were added up: see `look` of core/screen/screen_kernel_avx2.cpp,
   // at the worst of the rays.
   const auto wide = static_cast<float>(block.widest);
   const float size = std::sqrt(map_squared) * largest_scale;

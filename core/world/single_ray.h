@@ -6,7 +6,7 @@
 #include <array>
 
 #include "core/bvh/slab_ray.h"
-#include "core/cast/screen.h"
+#include "core/screen/screen.h"
 #include "core/world/instances.h"
 
 namespace minkray {

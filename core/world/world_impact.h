@@ -3,7 +3,7 @@
 // order in which the moving one's box meets theirs.
 #pragma once
 
-#include "core/contact/earliest_impact.h"
+#include "core/pair_motion/earliest_impact.h"
 #include "core/world/near_pairs.h"
 
 namespace minkray {

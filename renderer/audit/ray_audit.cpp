@@ -6,8 +6,8 @@
 #include "renderer/audit/mesh_verdict.h"
 #include "renderer/json/json.h"
 #include "renderer/json/number_json.h"
+#include "renderer/member_json/shape_json.h"
 #include "renderer/scene/scene_instances.h"
-#include "renderer/scene/shape_json.h"
 
 namespace minkray {
 namespace {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/proof/check_certificate.h"
-#include "renderer/light/ray_observer.h"
+#include "renderer/rays/ray_observer.h"
 #include "renderer/scene/scene.h"
 
 namespace minkray {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "renderer/import/xml.h"
+#include "renderer/import/model/xml.h"
 
 namespace minkray {
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "renderer/import/model.h"
+#include "renderer/import/model/model.h"
 #include "renderer/json/mistakes.h"
 
 namespace minkray {

@@ -5,9 +5,9 @@
 #include <map>
 
 #include "core/mesh/mapped.h"
-#include "core/shape/composed_map.h"
+#include "core/support/composed_map.h"
 #include "renderer/base/errors.h"
-#include "renderer/import/mesh_hull.h"
+#include "renderer/import/model/mesh_hull.h"
 #include "renderer/import/scene_of_model.h"
 #include "renderer/scene/scene_instances.h"
 

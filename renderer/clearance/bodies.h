@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "core/contact/half_space_distance.h"
+#include "core/pair_distance/half_space_distance.h"
 #include "core/parts/parts_reach.h"
 #include "renderer/clearance/allowed_pairs.h"
-#include "renderer/import/import_options.h"
+#include "renderer/import/model/import_options.h"
 #include "renderer/scene/scene.h"
 
 namespace minkray {

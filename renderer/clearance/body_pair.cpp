@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "core/contact/least_distance.h"
+#include "core/pair_motion/least_distance.h"
 #include "core/parts/parts_distance.h"
 
 namespace minkray {

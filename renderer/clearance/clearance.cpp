@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/contact/half_space_distance.h"
-#include "core/contact/least_distance.h"
+#include "core/pair_distance/half_space_distance.h"
+#include "core/pair_motion/least_distance.h"
 #include "core/parallel/parallel.h"
 #include "renderer/clearance/body_pair.h"
 

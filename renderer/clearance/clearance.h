@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Clearance of a robot's path: proven bounds of the least signed distance of its links to each
-// other and to obstacles, over the whole path and not at samples (core/contact/least_distance.h).
-// Between two rows each joint moves at a constant rate.
+// other and to obstacles, over the whole path and not at samples
+// (core/pair_motion/least_distance.h). Between two rows each joint moves at a constant rate.
 #pragma once
 
-#include "core/contact/signed_distance.h"
+#include "core/pair_distance/signed_distance.h"
 #include "renderer/clearance/bodies.h"
 #include "renderer/clearance/step_motion.h"
 

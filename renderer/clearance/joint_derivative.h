@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "core/contact/pair_derivative.h"
-#include "renderer/import/model.h"
+#include "core/pair_derivative/pair_derivative.h"
+#include "renderer/import/model/model.h"
 
 namespace minkray {
 

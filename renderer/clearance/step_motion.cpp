@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "core/shape/composed_map.h"
+#include "core/support/composed_map.h"
 #include "renderer/base/errors.h"
-#include "renderer/import/orientation.h"
+#include "renderer/import/model/orientation.h"
 #include "renderer/json/mistakes.h"
 
 namespace minkray {

@@ -10,7 +10,7 @@
 
 #include "core/math/two_fold.h"
 #include "renderer/clearance/joint_piece.h"
-#include "renderer/import/model.h"
+#include "renderer/import/model/model.h"
 #include "renderer/import/scene_of_model.h"
 
 namespace minkray {

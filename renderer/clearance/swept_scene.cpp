@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/contact/contact_shape.h"
-#include "core/contact/swept.h"
-#include "renderer/import/mesh_hull.h"
+#include "core/pair/contact_shape.h"
+#include "core/pair_motion/swept.h"
+#include "renderer/import/model/mesh_hull.h"
 #include "renderer/scene/framing.h"
 
 namespace minkray {

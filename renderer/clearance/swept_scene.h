@@ -3,7 +3,7 @@
 #pragma once
 
 #include "renderer/clearance/step_motion.h"
-#include "renderer/import/import_options.h"
+#include "renderer/import/model/import_options.h"
 #include "renderer/json/mistakes.h"
 
 namespace minkray {

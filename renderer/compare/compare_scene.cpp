@@ -9,7 +9,7 @@
 #include "core/parallel/parallel.h"
 #include "renderer/compare/half_space_check.h"
 #include "renderer/compare/mesh_check.h"
-#include "renderer/light/camera.h"
+#include "renderer/rays/camera.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {

@@ -4,9 +4,9 @@
 #include <atomic>
 #include <cmath>
 
-#include "core/contact/closed_answer.h"
-#include "core/contact/half_space_distance.h"
 #include "core/mesh/mapped.h"
+#include "core/pair/closed_answer.h"
+#include "core/pair_distance/half_space_distance.h"
 #include "core/parallel/parallel.h"
 #include "core/parts/parts_distance.h"
 #include "renderer/base/errors.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Signed distance of a probe from a scene, over the points of a plane: the least signed distance
-// from any object (core/contact/signed_distance.h).
+// from any object (core/pair_distance/signed_distance.h).
 #pragma once
 
 #include <functional>

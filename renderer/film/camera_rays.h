@@ -9,7 +9,7 @@
 #include "renderer/film/pixel_loop.h"
 #include "renderer/film/render.h"
 #include "renderer/image/filter.h"
-#include "renderer/light/camera.h"
+#include "renderer/rays/camera.h"
 
 namespace minkray {
 

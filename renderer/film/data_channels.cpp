@@ -8,10 +8,10 @@
 #include "renderer/base/errors.h"
 #include "renderer/film/heatmap.h"
 #include "renderer/film/pixel_loop.h"
-#include "renderer/light/camera.h"
-#include "renderer/light/inside.h"
-#include "renderer/light/scene_surfaces.h"
+#include "renderer/paths/inside.h"
+#include "renderer/rays/camera.h"
 #include "renderer/scene/scene_instances.h"
+#include "renderer/surfaces/scene_surfaces.h"
 
 namespace minkray {
 namespace {

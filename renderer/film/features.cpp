@@ -2,7 +2,7 @@
 #include "renderer/film/features.h"
 
 #include "renderer/film/camera_rays.h"
-#include "renderer/light/scene_surfaces.h"
+#include "renderer/surfaces/scene_surfaces.h"
 
 namespace minkray {
 namespace {

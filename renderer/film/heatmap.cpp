@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "renderer/film/pixel_loop.h"
-#include "renderer/light/camera.h"
+#include "renderer/rays/camera.h"
 
 namespace minkray {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "renderer/image/text.h"
-#include "renderer/light/camera.h"
+#include "renderer/rays/camera.h"
 #include "renderer/scene/summary.h"
 
 namespace minkray {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "renderer/film/share.h"
-#include "renderer/light/traced_ray.h"
+#include "renderer/rays/traced_ray.h"
 
 namespace minkray {
 

@@ -6,7 +6,7 @@
 #include "renderer/film/share.h"
 #include "renderer/film/tiles.h"
 #include "renderer/image/image.h"
-#include "renderer/light/integrator.h"
+#include "renderer/paths/integrator.h"
 
 namespace minkray {
 

@@ -11,8 +11,8 @@
 #include "renderer/generate/tumbling.h"
 #include "renderer/io/output_file.h"
 #include "renderer/json/json.h"
-#include "renderer/scene/scene_json.h"
-#include "renderer/scene/write_member.h"
+#include "renderer/member_json/write_member.h"
+#include "renderer/scene_json/scene_json.h"
 
 namespace minkray {
 namespace {

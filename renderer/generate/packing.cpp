@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "core/contact/distance.h"
+#include "core/shape_cast/distance.h"
 
 namespace minkray {
 namespace {

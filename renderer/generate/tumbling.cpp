@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "renderer/generate/random.h"
-#include "renderer/scene/scene_json.h"
+#include "renderer/scene_json/scene_json.h"
 
 namespace minkray {
 namespace {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "renderer/import/import_options.h"
-#include "renderer/import/model.h"
+#include "renderer/import/model/import_options.h"
+#include "renderer/import/model/model.h"
 #include "renderer/import/scene_of_model.h"
 #include "renderer/json/mistakes.h"
 #include "renderer/scene/scene.h"

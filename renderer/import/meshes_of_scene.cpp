@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "core/shape/hull.h"
-#include "renderer/import/mesh_library.h"
+#include "renderer/import/mesh/mesh_library.h"
 #include "renderer/json/parse.h"
 #include "renderer/json/values.h"
-#include "renderer/scene/read_split.h"
-#include "renderer/scene/scene_files.h"
+#include "renderer/scene_json/read_split.h"
+#include "renderer/scene_json/scene_files.h"
 
 namespace minkray {
 namespace {

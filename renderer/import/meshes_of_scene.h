@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "renderer/import/model.h"
+#include "renderer/import/model/model.h"
 
 namespace minkray {
 

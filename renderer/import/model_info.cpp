@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <map>
 
-#include "renderer/import/mesh_hull.h"
+#include "renderer/import/model/mesh_hull.h"
 #include "renderer/json/mistakes.h"
 
 namespace minkray {

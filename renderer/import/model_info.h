@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "renderer/import/model.h"
+#include "renderer/import/model/model.h"
 #include "renderer/json/json.h"
 
 namespace minkray {

@@ -11,8 +11,8 @@
 #include "renderer/base/errors.h"
 #include "renderer/base/hash.h"
 #include "renderer/image/colour.h"
-#include "renderer/import/mesh_looks.h"
-#include "renderer/import/orientation.h"
+#include "renderer/import/model/mesh_looks.h"
+#include "renderer/import/model/orientation.h"
 #include "renderer/scene/default_light.h"
 #include "renderer/scene/framing.h"
 

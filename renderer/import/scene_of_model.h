@@ -2,8 +2,8 @@
 // Converts a robot into a scene: one object per shape, and a default camera, sun and sky.
 #pragma once
 
-#include "renderer/import/import_options.h"
-#include "renderer/import/model.h"
+#include "renderer/import/model/import_options.h"
+#include "renderer/import/model/model.h"
 #include "renderer/json/mistakes.h"
 #include "renderer/scene/moving_frame.h"
 #include "renderer/scene/scene.h"

@@ -6,12 +6,12 @@
 #include "renderer/film/render.h"
 #include "renderer/json/mistakes.h"
 #include "renderer/json/values.h"
-#include "renderer/scene/describe_member.h"
-#include "renderer/scene/half_space_json.h"
-#include "renderer/scene/schema.h"
+#include "renderer/member_json/describe_member.h"
+#include "renderer/member_json/tagged_json.h"
+#include "renderer/member_json/write_member.h"
 #include "renderer/scene/summary.h"
-#include "renderer/scene/tagged_json.h"
-#include "renderer/scene/write_member.h"
+#include "renderer/scene_json/half_space_json.h"
+#include "renderer/scene_json/schema.h"
 
 namespace minkray {
 namespace {

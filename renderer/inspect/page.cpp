@@ -14,7 +14,7 @@
 #include "renderer/io/deflate.h"
 #include "renderer/io/image_file.h"
 #include "renderer/json/number_json.h"
-#include "renderer/light/camera.h"
+#include "renderer/rays/camera.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {

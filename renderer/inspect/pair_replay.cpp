@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/contact/distance.h"
-#include "core/contact/shape_cast.h"
+#include "core/shape_cast/distance.h"
+#include "core/shape_cast/shape_cast.h"
 #include "renderer/inspect/replay.h"
 #include "renderer/inspect/shape_mesh.h"
 #include "renderer/json/number_json.h"

@@ -11,7 +11,7 @@
 #include "renderer/inspect/replay_lines.h"
 #include "renderer/inspect/shape_mesh.h"
 #include "renderer/io/image_file.h"
-#include "renderer/light/camera.h"
+#include "renderer/rays/camera.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/files/regular_file.h"
-#include "core/shape/field.h"
+#include "core/support/field.h"
 #include "renderer/image/colour.h"
 #include "renderer/io/exr.h"
 #include "renderer/io/jpeg_segments.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/math/vec.h"
-#include "core/shape/field.h"
+#include "core/support/field.h"
 #include "renderer/json/json.h"
 #include "renderer/json/mistakes.h"
 

@@ -7,11 +7,11 @@
 #include "renderer/base/errors.h"
 #include "renderer/clearance/clearance.h"
 #include "renderer/clearance/clearance_derivative.h"
-#include "renderer/library/call.h"
-#include "renderer/library/held_scene.h"
-#include "renderer/library/poses.h"
-#include "renderer/library/robot_among.h"
-#include "renderer/library/work_on_rays.h"
+#include "renderer/library/handles/call.h"
+#include "renderer/library/handles/held_scene.h"
+#include "renderer/library/handles/poses.h"
+#include "renderer/library/handles/robot_among.h"
+#include "renderer/library/handles/work_on_rays.h"
 
 namespace minkray {
 namespace {

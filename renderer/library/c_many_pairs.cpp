@@ -6,16 +6,16 @@
 #include <limits>
 #include <string>
 
-#include "core/contact/manifold.h"
-#include "core/contact/pair_derivative.h"
+#include "core/pair_derivative/pair_derivative.h"
+#include "core/pair_distance/manifold.h"
 #include "core/parts/parts_contact.h"
 #include "core/parts/parts_distance.h"
 #include "core/parts/parts_impact.h"
-#include "renderer/library/bodies_of_pairs.h"
-#include "renderer/library/call.h"
-#include "renderer/library/kept_memory.h"
-#include "renderer/library/pair_answers.h"
-#include "renderer/library/work_on_rays.h"
+#include "renderer/library/handles/bodies_of_pairs.h"
+#include "renderer/library/handles/call.h"
+#include "renderer/library/handles/kept_memory.h"
+#include "renderer/library/handles/pair_answers.h"
+#include "renderer/library/handles/work_on_rays.h"
 
 namespace minkray {
 namespace {

@@ -3,16 +3,16 @@
 #include <cmath>
 #include <memory>
 
-#include "core/contact/impact.h"
-#include "core/contact/signed_distance.h"
 #include "core/mesh/mapped.h"
+#include "core/pair_distance/signed_distance.h"
+#include "core/pair_motion/impact.h"
 #include "core/parts/parts_contact.h"
 #include "core/parts/parts_distance.h"
 #include "core/parts/parts_impact.h"
-#include "renderer/library/call.h"
-#include "renderer/library/held_shape.h"
-#include "renderer/library/pair_answers.h"
-#include "renderer/library/poses.h"
+#include "renderer/library/handles/call.h"
+#include "renderer/library/handles/held_shape.h"
+#include "renderer/library/handles/pair_answers.h"
+#include "renderer/library/handles/poses.h"
 
 namespace minkray {
 namespace {

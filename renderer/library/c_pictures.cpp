@@ -10,12 +10,12 @@
 #include "renderer/film/features.h"
 #include "renderer/import/scene_of_model.h"
 #include "renderer/json/parse.h"
-#include "renderer/library/call.h"
-#include "renderer/library/held_scene.h"
-#include "renderer/library/work_on_rays.h"
+#include "renderer/library/handles/call.h"
+#include "renderer/library/handles/held_scene.h"
+#include "renderer/library/handles/work_on_rays.h"
 #include "renderer/scene/default_light.h"
 #include "renderer/scene/framing.h"
-#include "renderer/scene/scene_json.h"
+#include "renderer/scene_json/scene_json.h"
 
 namespace minkray {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // C interface: proofs of results.
-#include "renderer/library/call.h"
-#include "renderer/library/prover.h"
-#include "renderer/library/ray_source.h"
-#include "renderer/library/work_on_rays.h"
+#include "renderer/library/handles/call.h"
+#include "renderer/library/handles/prover.h"
+#include "renderer/library/handles/ray_source.h"
+#include "renderer/library/handles/work_on_rays.h"
 
 using namespace minkray;
 

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <limits>
 
-#include "core/contact/sharp_point.h"
+#include "core/pair/sharp_point.h"
 #include "core/parts/bends.h"
-#include "renderer/library/call.h"
-#include "renderer/library/held_scene.h"
-#include "renderer/library/pair_answers.h"
-#include "renderer/library/ray_source.h"
-#include "renderer/library/scene_bodies.h"
-#include "renderer/library/work_on_rays.h"
+#include "renderer/library/handles/call.h"
+#include "renderer/library/handles/held_scene.h"
+#include "renderer/library/handles/pair_answers.h"
+#include "renderer/library/handles/ray_source.h"
+#include "renderer/library/handles/scene_bodies.h"
+#include "renderer/library/handles/work_on_rays.h"
 
 namespace minkray {
 namespace {

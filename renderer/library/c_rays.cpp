@@ -5,12 +5,12 @@
 #include <span>
 #include <vector>
 
-#include "renderer/library/call.h"
-#include "renderer/library/held_scene.h"
-#include "renderer/library/held_shape.h"
-#include "renderer/library/poses.h"
-#include "renderer/library/ray_source.h"
-#include "renderer/library/work_on_rays.h"
+#include "renderer/library/handles/call.h"
+#include "renderer/library/handles/held_scene.h"
+#include "renderer/library/handles/held_shape.h"
+#include "renderer/library/handles/poses.h"
+#include "renderer/library/handles/ray_source.h"
+#include "renderer/library/handles/work_on_rays.h"
 
 namespace minkray {
 namespace {

@@ -10,13 +10,13 @@
 #include "renderer/base/errors.h"
 #include "renderer/clearance/allowed_pairs.h"
 #include "renderer/import/scene_of_model.h"
-#include "renderer/library/bodies_of_pairs.h"
-#include "renderer/library/call.h"
-#include "renderer/library/held_scene.h"
-#include "renderer/library/pair_answers.h"
-#include "renderer/library/poses.h"
-#include "renderer/library/scene_bodies.h"
-#include "renderer/library/work_on_rays.h"
+#include "renderer/library/handles/bodies_of_pairs.h"
+#include "renderer/library/handles/call.h"
+#include "renderer/library/handles/held_scene.h"
+#include "renderer/library/handles/pair_answers.h"
+#include "renderer/library/handles/poses.h"
+#include "renderer/library/handles/scene_bodies.h"
+#include "renderer/library/handles/work_on_rays.h"
 
 namespace minkray {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstddef>
 
-#include "renderer/library/call.h"
-#include "renderer/library/held_scene.h"
-#include "renderer/library/held_shape.h"
-#include "renderer/library/poses.h"
-#include "renderer/library/scene_use.h"
+#include "renderer/library/handles/call.h"
+#include "renderer/library/handles/held_scene.h"
+#include "renderer/library/handles/held_shape.h"
+#include "renderer/library/handles/poses.h"
+#include "renderer/library/handles/scene_use.h"
 
 namespace minkray {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // C interface: rays of lidars and cameras.
-#include "renderer/library/call.h"
-#include "renderer/library/poses.h"
+#include "renderer/library/handles/call.h"
+#include "renderer/library/handles/poses.h"
 #include "renderer/sensor/sensor_rays.h"
 
 using namespace minkray;

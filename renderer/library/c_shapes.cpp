@@ -6,12 +6,12 @@
 #include "core/derived/shape_bounds.h"
 #include "core/mesh/height_field.h"
 #include "renderer/json/parse.h"
-#include "renderer/library/call.h"
-#include "renderer/library/held_shape.h"
-#include "renderer/library/make_shape.h"
-#include "renderer/library/nesting.h"
+#include "renderer/library/handles/call.h"
+#include "renderer/library/handles/held_shape.h"
+#include "renderer/library/handles/make_shape.h"
+#include "renderer/library/handles/nesting.h"
+#include "renderer/member_json/shape_json.h"
 #include "renderer/scene/scene.h"
-#include "renderer/scene/shape_json.h"
 
 namespace minkray {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "core/parallel/parallel.h"
-#include "renderer/library/poses.h"
-#include "renderer/library/robot_among.h"
+#include "renderer/library/handles/poses.h"
+#include "renderer/library/handles/robot_among.h"
 #include "renderer/verify/referee.h"
 
 namespace minkray {

@@ -7,11 +7,11 @@
 #include <ctime>
 #include <limits>
 
-#include "core/contact/impact.h"
-#include "core/contact/shape_cast.h"
 #include "core/derived/shape_bounds.h"
 #include "core/gjk/gjk_distance.h"
 #include "core/gjk/gjk_ray_cast.h"
+#include "core/pair_motion/impact.h"
+#include "core/shape_cast/shape_cast.h"
 #include "renderer/paper/claim.h"
 #include "renderer/paper/samples.h"
 
@@ -138,8 +138,8 @@ Run run(Kind kind, unsigned seed) {
   return result;
 }
 
-/// Runs our own queries on those pairs and frames (core/contact): the distance, and if the two
-/// touch within the frame; each from the beginning, or with a memory for each pair.
+/// Runs our own queries on those pairs and frames (core/pair_distance): the distance, and if the
+/// two touch within the frame; each from the beginning, or with a memory for each pair.
 struct OwnRun {
   double distance_seconds = 0, impact_seconds = 0;
   double supports = 0;  ///< of the distances

@@ -3,8 +3,8 @@
 #include <ctime>
 #include <limits>
 
-#include "core/contact/distance.h"
 #include "core/derived/convert.h"
+#include "core/shape_cast/distance.h"
 #include "renderer/paper/claim.h"
 #include "renderer/paper/samples.h"
 

@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "core/contact/distance.h"
 #include "core/shape/shape.h"
+#include "core/shape_cast/distance.h"
 
 namespace minkray {
 

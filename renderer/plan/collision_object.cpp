@@ -5,8 +5,8 @@
 #include <cctype>
 #include <cmath>
 
-#include "renderer/import/geometry_common.h"
-#include "renderer/import/orientation.h"
+#include "renderer/import/mesh/geometry_common.h"
+#include "renderer/import/model/orientation.h"
 #include "renderer/json/object_reader.h"
 #include "renderer/json/values.h"
 #include "renderer/plan/message_values.h"

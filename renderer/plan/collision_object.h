@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "renderer/import/import_options.h"
-#include "renderer/import/mesh_library.h"
+#include "renderer/import/mesh/mesh_library.h"
+#include "renderer/import/model/import_options.h"
 #include "renderer/plan/planning_scene.h"
 
 namespace minkray {

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "renderer/import/orientation.h"
+#include "renderer/import/model/orientation.h"
 #include "renderer/json/values.h"
 
 namespace minkray {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "core/derived/sandwich.h"
-#include "renderer/import/orientation.h"
+#include "renderer/import/model/orientation.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {

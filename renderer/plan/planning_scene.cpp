@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/import/orientation.h"
+#include "renderer/import/model/orientation.h"
 #include "renderer/json/object_reader.h"
 #include "renderer/json/values.h"
 #include "renderer/plan/collision_object.h"

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "renderer/import/import_options.h"
-#include "renderer/import/model.h"
+#include "renderer/import/model/import_options.h"
+#include "renderer/import/model/model.h"
 #include "renderer/plan/document.h"
 
 namespace minkray {

@@ -6,7 +6,7 @@
 #include <set>
 #include <sstream>
 
-#include "renderer/import/xml.h"
+#include "renderer/import/model/xml.h"
 #include "renderer/json/object_reader.h"
 
 namespace minkray {

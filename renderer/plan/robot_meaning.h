@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/import/model.h"
+#include "renderer/import/model/model.h"
 #include "renderer/import/scene_of_model.h"
 
 namespace minkray {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "renderer/clearance/step_motion.h"
-#include "renderer/import/import_options.h"
+#include "renderer/import/model/import_options.h"
 #include "renderer/plan/document.h"
 #include "renderer/plan/planning_scene.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "renderer/clearance/allowed_pairs.h"
-#include "renderer/import/import_options.h"
+#include "renderer/import/model/import_options.h"
 #include "renderer/plan/planning_scene.h"
 #include "renderer/scene/scene.h"
 #include "renderer/verify/referee.h"

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/query/answer.h"
 
-#include "core/contact/distance.h"
-#include "core/contact/impact.h"
-#include "core/contact/manifold.h"
-#include "core/contact/rotating_cast.h"
-#include "core/contact/shape_cast.h"
-#include "core/contact/signed_distance.h"
 #include "core/derived/convert.h"
 #include "core/math/outward_sum.h"
+#include "core/pair_distance/manifold.h"
+#include "core/pair_distance/signed_distance.h"
+#include "core/pair_motion/impact.h"
+#include "core/shape_cast/distance.h"
+#include "core/shape_cast/rotating_cast.h"
+#include "core/shape_cast/shape_cast.h"
 #include "renderer/json/number_json.h"
 #include "renderer/query/trace.h"
 

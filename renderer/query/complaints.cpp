@@ -2,9 +2,9 @@
 // --check: compares a result with a case's `expect`.
 #include <sstream>
 
-#include "core/contact/distance.h"
 #include "core/derived/shape_bounds.h"
 #include "core/query/tolerances.h"
+#include "core/shape_cast/distance.h"
 #include "renderer/query/answer.h"
 
 namespace minkray {

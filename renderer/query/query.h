@@ -39,7 +39,7 @@ struct DistanceQuery {
   Shape<double> b;
 };
 
-/// Query for the signed distance of two shapes (core/contact/signed_distance.h).
+/// Query for the signed distance of two shapes (core/pair_distance/signed_distance.h).
 struct SignedDistanceQuery {
   Shape<double> a;
   Shape<double> b;
@@ -47,7 +47,7 @@ struct SignedDistanceQuery {
   bool only_sign = false;
 };
 
-/// Up to four points of contact (core/contact/manifold.h).
+/// Up to four points of contact (core/pair_distance/manifold.h).
 struct ManifoldQuery {
   Shape<double> a;
   Shape<double> b;
@@ -62,7 +62,7 @@ struct ImpactMotion {
   Vec3<double> pivot = Vec3<double>::Zero();  ///< by default the origin of the shape's frame
 };
 
-/// When two shapes that move and turn first touch, with proof (core/contact/impact.h).
+/// When two shapes that move and turn first touch, with proof (core/pair_motion/impact.h).
 struct ImpactQuery {
   Shape<double> a;
   Shape<double> b;

@@ -4,7 +4,7 @@
 #include "renderer/json/object_reader.h"
 #include "renderer/json/parse.h"
 #include "renderer/json/values.h"
-#include "renderer/scene/shape_json.h"
+#include "renderer/member_json/shape_json.h"
 
 namespace minkray {
 namespace {

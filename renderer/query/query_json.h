@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "renderer/json/mistakes.h"
+#include "renderer/member_json/mesh_files.h"
 #include "renderer/query/query.h"
-#include "renderer/scene/mesh_files.h"
 
 namespace minkray {
 

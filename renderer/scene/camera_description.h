@@ -8,7 +8,7 @@
 #include <string>
 
 #include "core/math/vec.h"
-#include "core/shape/field.h"
+#include "core/support/field.h"
 #include "renderer/scene/named.h"
 
 namespace minkray {

@@ -12,7 +12,7 @@
 #include <variant>
 
 #include "core/math/vec.h"
-#include "core/shape/field.h"
+#include "core/support/field.h"
 #include "renderer/scene/relief.h"
 #include "renderer/scene/textures.h"
 #include "renderer/scene/visible_to.h"

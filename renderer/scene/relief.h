@@ -2,7 +2,7 @@
 // Small unevenness of a surface, which is seen in how it is lit but has no shape of its own.
 #pragma once
 
-#include "core/shape/field.h"
+#include "core/support/field.h"
 #include "renderer/scene/textures.h"
 
 namespace minkray {

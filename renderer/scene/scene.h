@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A scene as plain data: what a scene file says, with defaults filled in and names resolved.
 // Lengths are in the scene's unit, directions need not be of unit length, colours are linear RGB.
-// What a file may say is described by the `fields()`, as for shapes (core/shape/field.h).
+// What a file may say is described by the `fields()`, as for shapes (core/support/field.h).
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 #include "core/math/affine.h"
 #include "core/math/vec.h"
-#include "core/shape/field.h"
 #include "core/shape/shape.h"
+#include "core/support/field.h"
 #include "core/world/half_space.h"
 #include "renderer/scene/camera_description.h"
 #include "renderer/scene/light_descriptions.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/math/vec.h"
-#include "core/shape/field.h"
+#include "core/support/field.h"
 #include "renderer/scene/named.h"
 
 namespace minkray {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/sensor/reflectance.h"
 
-#include "renderer/light/scene_surfaces.h"
+#include "renderer/surfaces/scene_surfaces.h"
 
 namespace minkray {
 

@@ -5,7 +5,7 @@
 
 #include "core/files/regular_file.h"
 #include "renderer/base/errors.h"
-#include "renderer/import/mesh_hull.h"
+#include "renderer/import/model/mesh_hull.h"
 #include "renderer/json/number_json.h"
 #include "renderer/verify/sha256.h"
 

@@ -2,7 +2,7 @@
 // Referee of motions: proves that all pairs of bodies stay apart along a whole path, also between
 // its rows, or finds the pairs that collide and when. A plane proves a part of a step if it
 // separates a pair at both ends by more than the pair can deviate in between
-// (core/contact/least_distance.h). Parts that no plane proves are halved.
+// (core/pair_motion/least_distance.h). Parts that no plane proves are halved.
 #pragma once
 
 #include <limits>

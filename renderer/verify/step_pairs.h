@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "core/contact/signed_distance.h"
+#include "core/pair_distance/signed_distance.h"
 #include "renderer/clearance/bodies.h"
 #include "renderer/clearance/step_motion.h"
 

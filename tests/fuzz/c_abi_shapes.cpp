@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include "renderer/scene/shape_json.h"
-#include "renderer/scene/tagged_json.h"
+#include "renderer/member_json/shape_json.h"
+#include "renderer/member_json/tagged_json.h"
 #include "tests/fuzz/c_abi_program.h"
 #include "tests/fuzz/shape_from_bytes.h"
 

@@ -2,10 +2,10 @@
 // Two shapes made of the bytes, at rigid poses: what their signed distance promises.
 #include <sstream>
 
-#include "core/contact/searchable.h"
-#include "core/contact/signed_distance.h"
+#include "core/pair/searchable.h"
+#include "core/pair_distance/signed_distance.h"
 #include "core/query/tolerances.h"
-#include "renderer/scene/shape_json.h"
+#include "renderer/member_json/shape_json.h"
 #include "tests/fuzz/shape_from_bytes.h"
 #include "tests/fuzz/target.h"
 

@@ -6,8 +6,8 @@
 #include <exception>
 #include <limits>
 
-#include "renderer/import/mesh_hull.h"
-#include "renderer/import/mesh_library.h"
+#include "renderer/import/mesh/mesh_library.h"
+#include "renderer/import/model/mesh_hull.h"
 #include "renderer/json/mistakes.h"
 #include "tests/fuzz/hull_rounding.h"
 #include "tests/fuzz/target.h"

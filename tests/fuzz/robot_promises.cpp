@@ -4,7 +4,7 @@
 #include "renderer/import/import.h"
 #include "renderer/import/model_info.h"
 #include "renderer/import/scene_of_model.h"
-#include "renderer/scene/write_scene.h"
+#include "renderer/scene_json/write_scene.h"
 #include "tests/fuzz/messages.h"
 
 namespace minkray::fuzz {

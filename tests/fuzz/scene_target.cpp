@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/info/scene_info.h"
-#include "renderer/scene/scene_json.h"
-#include "renderer/scene/shape_json.h"
+#include "renderer/member_json/shape_json.h"
+#include "renderer/scene_json/scene_json.h"
 #include "tests/fuzz/messages.h"
 #include "tests/fuzz/target.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Derivatives of many random pairs compared with central differences in long double
-// (tests/core/contact/derivative_judge.h): a row for each kind of shape. Prints errors.
+// (tests/core/pair_derivative/derivative_judge.h): a row for each kind of shape. Prints errors.
 #include <cstdio>
 #include <cstdlib>
 
-#include "tests/core/contact/derivative_judge.h"
+#include "tests/core/pair_derivative/derivative_judge.h"
 
 namespace {
 

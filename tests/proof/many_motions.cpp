@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Compares the first contacts in many random motions of bodies that move and turn with dense
-// sampling and bisection in long double (tests/core/contact/moving_pairs.h). Prints errors.
+// sampling and bisection in long double (tests/core/pair_motion/moving_pairs.h). Prints errors.
 #include <cstdio>
 #include <cstdlib>
 
-#include "tests/core/contact/moving_pairs.h"
+#include "tests/core/pair_motion/moving_pairs.h"
 
 int main(int count, char** words) {
   using namespace minkray::testing;

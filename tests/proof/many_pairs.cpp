@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Many random pairs of all kinds of shapes, slender ones among them: their signed distances, judged
-// by planes and points (tests/core/contact/pair_judge.h). Prints what is wrong.
+// by planes and points (tests/core/pair_distance/pair_judge.h). Prints what is wrong.
 #include <cstdio>
 #include <cstdlib>
 
-#include "tests/core/contact/pair_judge.h"
+#include "tests/core/pair_distance/pair_judge.h"
 
 int main(int count, char** words) {
   using namespace minkray;

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "minkray/minkray_c_pairs.h"
-#include "renderer/scene/shape_json.h"
-#include "tests/core/contact/derivative_judge.h"
+#include "renderer/member_json/shape_json.h"
+#include "tests/core/pair_derivative/derivative_judge.h"
 #include "tests/oracle/line_entry.h"
 
 namespace {

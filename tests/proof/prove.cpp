@@ -17,7 +17,7 @@
 #include "core/parallel/parallel.h"
 #include "renderer/json/json.h"
 #include "renderer/json/number_json.h"
-#include "renderer/scene/shape_json.h"
+#include "renderer/member_json/shape_json.h"
 #include "tests/proof/certified_casts.h"
 #include "tests/support/sample_shapes.h"
 

@@ -23,7 +23,11 @@ struct OddWords {
 };
 
 /// Folders that still have odd words. Lower a count when it falls.
-const std::map<std::string, OddWords> recorded = {{"renderer/scene", {66, 81}}};
+const std::map<std::string, OddWords> recorded = {
+    {"renderer/member_json", {11, 14}},
+    {"renderer/scene", {36, 42}},
+    {"renderer/scene_json", {19, 25}},
+};
 
 constexpr std::array starts_of_no_sentence = {"What ", "Whether ", "Who ", "It ", "They ", "Of "};
 constexpr std::array starts_of_no_comment = {"Where ", "Whose ",   "That ",  "Its ",      "So ",
@@ -109,7 +113,7 @@ OddWords odd_words_in(const std::string& comment) {
   return found;
 }
 
-/// core/bvh, renderer/light; tests, include, bench and tools are one folder each.
+/// core/bvh, renderer/film; tests, include, bench and tools are one folder each.
 std::string folder_of_file(const std::string& name) {
   const std::size_t top = name.find('/');
   const std::string first = name.substr(0, top);

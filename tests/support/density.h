@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/math/vec.h"
-#include "renderer/light/sampler.h"
+#include "renderer/rays/sampler.h"
 
 namespace minkray {
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "core/shape/shape.h"
-#include "renderer/scene/shape_json.h"
+#include "renderer/member_json/shape_json.h"
 #include "tests/fuzz/shape_from_bytes.h"
 
 namespace minkray::testing {

@@ -4,7 +4,7 @@
 
 #include "core/cast/cast.h"
 #include "core/derived/convert.h"
-#include "core/shape/ellipsoid_sum.h"
+#include "core/derived/ellipsoid_sum.h"
 #include "tests/oracle/portal.h"
 #include "tests/support/ray_families.h"
 #include "tests/support/rounded.h"

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "core/cast/packet_cast.h"
-#include "core/contact/shape_cast.h"
 #include "core/derived/convert.h"
+#include "core/shape_cast/shape_cast.h"
 #include "tests/support/random.h"
 
 namespace minkray::testing {

@@ -3,7 +3,7 @@
 // in more digits: no bound is broken, no hit or miss is false.
 #include "core/cast/packet_cast.h"
 #include "core/derived/convert.h"
-#include "core/exact/polytope.h"
+#include "core/polytope/polytope.h"
 #include "tests/oracle/half_spaces.h"
 #include "tests/support/filter_cases.h"
 #include "tests/support/hull_points.h"

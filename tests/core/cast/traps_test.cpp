@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "core/cast/cast.h"
-#include "core/contact/distance.h"
 #include "core/derived/convert.h"
+#include "core/shape_cast/distance.h"
 #include "tests/support/ray_families.h"
 #include "tests/support/sample_shapes.h"
 #include "tests/support/traps.h"

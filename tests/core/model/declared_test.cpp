@@ -8,7 +8,7 @@
 //        +--\   .            meets the box around it, and not the wedge.
 //        |   \    .
 //        +----\-----> x
-#include "core/shape/declared.h"
+#include "core/support/declared.h"
 
 #include <gtest/gtest.h>
 

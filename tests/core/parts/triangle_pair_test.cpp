@@ -6,9 +6,9 @@
 #include <cstring>
 
 #include "core/bvh/traverse.h"
-#include "core/contact/signed_distance.h"
-#include "core/contact/triangle_part.h"
 #include "core/mesh/exact_sign.h"
+#include "core/pair/triangle_part.h"
+#include "core/pair_distance/signed_distance.h"
 #include "core/parts/nearest_features.h"
 #include "core/parts/triangle_lanes.h"
 #include "tests/support/number_of_cases.h"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/core/contact/random_bodies.h"
+#include "tests/core/pair_distance/random_bodies.h"
 
 namespace minkray {
 namespace {

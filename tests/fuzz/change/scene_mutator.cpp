@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Scene files and queries, changed as JSON. The schema describes their possible contents.
-#include "renderer/scene/schema.h"
+#include "renderer/scene_json/schema.h"
 #include "tests/fuzz/change/json_changes.h"
 #include "tests/fuzz/change/mutator.h"
 #include "tests/fuzz/change/words.h"

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/contact/swept.h"
+#include "core/pair_motion/swept.h"
 #include "renderer/base/errors.h"
 #include "renderer/clearance/swept_scene.h"
 #include "tests/renderer/clearance/arm.h"

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "renderer/io/exr.h"
-#include "renderer/scene/scene_json.h"
+#include "renderer/scene_json/scene_json.h"
 #include "tests/renderer/cli/nothing_lost.h"
 
 namespace minkray {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/compare/compare_scene.h"
-#include "renderer/scene/scene_json.h"
+#include "renderer/scene_json/scene_json.h"
 
 namespace minkray {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "core/cast/cast.h"
 #include "renderer/base/errors.h"
-#include "renderer/light/camera.h"
+#include "renderer/rays/camera.h"
 
 namespace minkray {
 namespace {

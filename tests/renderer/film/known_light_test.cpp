@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "renderer/film/render.h"
-#include "renderer/light/camera.h"
+#include "renderer/rays/camera.h"
 #include "tests/support/shifted.h"
 
 namespace minkray {

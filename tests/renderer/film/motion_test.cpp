@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "renderer/film/render.h"
-#include "renderer/light/camera.h"
-#include "renderer/scene/scene_json.h"
+#include "renderer/rays/camera.h"
+#include "renderer/scene_json/scene_json.h"
 
 namespace minkray {
 namespace {

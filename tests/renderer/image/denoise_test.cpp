@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "core/parallel/parallel.h"
-#include "renderer/light/sampler.h"
+#include "renderer/rays/sampler.h"
 
 namespace minkray {
 namespace {

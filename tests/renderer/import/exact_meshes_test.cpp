@@ -7,7 +7,7 @@
 
 #include "core/mesh/mesh_ray.h"
 #include "renderer/import/import.h"
-#include "renderer/import/mesh_library.h"
+#include "renderer/import/mesh/mesh_library.h"
 #include "tests/support/meshes.h"
 #include "tests/support/temporary_folder.h"
 

@@ -6,9 +6,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "renderer/import/geometry_common.h"
-#include "renderer/import/mjcf_defaults.h"
-#include "renderer/import/xml.h"
+#include "renderer/import/mesh/geometry_common.h"
+#include "renderer/import/mjcf/mjcf_defaults.h"
+#include "renderer/import/model/xml.h"
 #include "tests/renderer/import/imports.h"
 #include "tests/support/program.h"
 #include "tests/support/source_files.h"

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "renderer/import/import.h"
-#include "renderer/import/mesh_looks.h"
+#include "renderer/import/model/mesh_looks.h"
 #include "tests/support/temporary_folder.h"
 
 namespace minkray {

@@ -6,8 +6,8 @@
 
 #include "core/files/mesh_attributes.h"
 #include "renderer/io/png.h"
-#include "renderer/scene/scene_json.h"
-#include "renderer/scene/write_scene.h"
+#include "renderer/scene_json/scene_json.h"
+#include "renderer/scene_json/write_scene.h"
 #include "tests/renderer/import/imports.h"
 
 namespace minkray {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Distance of a scene file's meshes from convexity.
 #include "renderer/import/meshes_of_scene.h"
-#include "renderer/import/mesh_hull.h"
+#include "renderer/import/model/mesh_hull.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "renderer/import/mesh_library.h"
+#include "renderer/import/mesh/mesh_library.h"
+#include "renderer/import/model/plane_tree.h"
 #include "renderer/import/model_info.h"
-#include "renderer/import/plane_tree.h"
 #include "tests/support/program.h"
 #include "tests/support/random.h"
 

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <map>
 
-#include "renderer/scene/scene_json.h"
-#include "renderer/scene/write_scene.h"
+#include "renderer/scene_json/scene_json.h"
+#include "renderer/scene_json/write_scene.h"
 #include "tests/renderer/import/imports.h"
 #include "tests/support/program.h"
 #include "tests/support/robot_models.h"

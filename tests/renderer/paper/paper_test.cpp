@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "core/contact/distance.h"
+#include "core/shape_cast/distance.h"
 #include "renderer/paper/claim.h"
 #include "renderer/paper/panels.h"
 #include "renderer/paper/trace_picture.h"

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "core/world/half_space.h"
-#include "renderer/light/camera.h"
+#include "renderer/rays/camera.h"
 #include "renderer/scene/framing.h"
 #include "tests/renderer/import/imports.h"
 #include "tests/support/program.h"

@@ -7,7 +7,7 @@
 
 #include "renderer/base/errors.h"
 #include "renderer/io/output_file.h"
-#include "renderer/scene/scene_json.h"
+#include "renderer/scene_json/scene_json.h"
 #include "tests/support/program.h"
 
 namespace minkray {

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+#include "core/derived/core_and_radius.h"
+
+#include <cmath>
+
+#include "core/derived/simple_cores.h"
+#include "core/math/length.h"
+
+namespace minkray {
+namespace {
+
+using namespace cores;
+/// Uses the support mapping, about the middle of a box found with it.
+CoreAndRadius of_other(const Shape<double>& shape, const ComposedMap& map, double radius) {
+  const AboutMiddle about = about_middle(shape, map);
+  Vec3<double> low, high;
+  for (int axis = 0; axis < 3; ++axis) {
+    high[axis] = about.shape.support(Vec3<double>(Vec3<double>::Unit(axis)))[axis];
+    low[axis] = about.shape.support(Vec3<double>(-Vec3<double>::Unit(axis)))[axis];
+  }
+  const Vec3<double> middle = low + (high - low) / 2;
+  const TwoFoldVec3<double> place = about.middle + TwoFoldVec3<double>(middle);
+  if (low == high) return of_point(place, radius, about.loss);
+  auto about_middle = std::make_shared<Shape<double>>(moved_by(about.shape, -middle));
+  ShapeCore core;
+  core.kind = CoreKind::other;
+  core.radius = radius;
+  core.ball = length_of((high - low) / 2) * padding;
+  core.shape = about_middle.get();
+  // The core's own place relative to the middle of its parts has already lost those digits.
+  constexpr double lost = 4 * std::numeric_limits<double>::epsilon();
+  CoreAndRadius found =
+      placed(core, Mat3<double>::Identity(), place, about.loss + lost * length_of(middle));
+  found.storage = std::move(about_middle);
+  return found;
+}
+
+/// The exponent of a power of two that is larger than all of the numbers: products of what is
+/// scaled down by it are numbers, and no digit is lost.
+template <class Numbers>
+int exponent_of_largest(const Numbers& numbers) {
+  int exponent = 0;
+  std::frexp(numbers.cwiseAbs().maxCoeff(), &exponent);
+  return exponent;
+}
+
+template <class Numbers>
+Numbers scaled_down(const Numbers& numbers, int exponent) {
+  return numbers.unaryExpr([exponent](double x) { return std::ldexp(x, -exponent); });
+}
+
+/// The factor by which the map scales all lengths; 0 if there is none.
+double similarity_of(const Mat3<double>& linear) {
+  const int exponent = exponent_of_largest(linear);
+  const Affine<double> map{scaled_down(linear, exponent), Vec3<double>::Zero()};
+  return std::ldexp(AffineMap<double>(map).similarity(), exponent);
+}
+
+/// True if the map keeps the coordinate axes at right angles, but for a few roundings: boxes stay
+/// boxes then, and ellipsoids keep their axes.
+bool keeps_right_angles(const Mat3<double>& linear) {
+  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+  const auto column = [&](int i) {
+    const Vec3<double> v = linear.col(i);
+    return scaled_down(v, exponent_of_largest(v));
+  };
+  for (int i = 0; i < 3; ++i) {
+    const Vec3<double> a = column(i), b = column((i + 1) % 3);
+    if (!(std::abs(a.dot(b)) <= rounding * a.norm() * b.norm())) return false;
+  }
+  return true;
+}
+
+CoreAndRadius find(const Shape<double>& shape, const ComposedMap& map, double radius);
+
+/// True if the shape is about its origin: neither points nor other shapes are moved.
+bool is_about_origin(const Shape<double>& shape) {
+  const auto is_within = []<class... Kinds>(const Shape<double>& one, std::variant<Kinds...>*) {
+    return (std::holds_alternative<Kinds>(one.kind) || ...);
+  };
+  using Others = std::variant<Point<double>, Segment<double>, Triangle<double>, Hull<double>,
+                              Transform<double>, Rounded<double>, HullOf<double>,
+                              MinkowskiSum<double>, MinkowskiDifference<double>>;
+  return !is_within(shape, static_cast<Others*>(nullptr));
+}
+
+/// A Minkowski sum whose operands are all points and balls, except for at most one: they move that
+/// one and make it rounder.
+class BallsAndOne {
+ public:
+  /// Returns false if the sum is no longer of that kind.
+  bool add(const Shape<double>& operand, const ComposedMap& about_origin) {
+    CoreAndRadius one = find(operand, about_origin, 0);
+    offset_ = offset_ + TwoFoldVec3<double>(one.middle, one.middle_low);
+    radius_ += one.core.radius;
+    loss_ += one.core.rounding;
+    if (one.core.kind == CoreKind::point) return true;
+    if (has_one_) return false;
+    has_one_ = true;
+    one_ = std::move(one);
+    return true;
+  }
+
+  CoreAndRadius of(const ComposedMap& map, double radius) const {
+    const TwoFoldVec3<double> middle = offset_ + map.translation;
+    const double loss = loss_ + map.loss;
+    if (!has_one_) return of_point(middle, radius_ + radius, loss);
+    CoreAndRadius found = one_;
+    found.middle = middle.high;
+    found.middle_low = middle.low;
+    found.core.radius = radius_ + radius;
+    found.core.rounding = loss;
+    return found;
+  }
+
+ private:
+  TwoFoldVec3<double> offset_;
+  double radius_ = 0, loss_ = 0;
+  bool has_one_ = false;
+  CoreAndRadius one_;
+};
+
+/// Kinds whose core is known. Nothing for others.
+struct CoreFinder {
+  const ComposedMap& map;
+  double radius;
+  double similarity;  ///< by how much the map scales all lengths; 0 if it does not
+
+  const Mat3<double>& linear() const { return map.linear.high; }
+
+  CoreAndRadius scaled(ShapeCore core) const {
+    core.radius = radius;
+    core.size *= similarity;
+    core.ball *= similarity;
+    return placed(core, linear() / similarity, map.translation, map.loss);
+  }
+
+  /// A core along axes that stay at right angles.
+  CoreAndRadius along_columns(ShapeCore core) const {
+    Mat3<double> turn;
+    for (int i = 0; i < 3; ++i) {
+      const double scale = similarity > 0 ? similarity : length_of(linear().col(i));
+      core.size[i] *= scale;
+      turn.col(i) = linear().col(i) / scale;
+    }
+    core.radius = radius;
+    return placed(core, turn, map.translation, map.loss);
+  }
+
+  /// Along the z axis, about the origin.
+  CoreAndRadius upright_segment(double half_height, double grown_by) const {
+    const Vec3<double> half(0, 0, half_height);
+    return of_segment(map.image(Vec3<double>(-half)), map.image(half), grown_by, map.loss);
+  }
+
+  template <class S>
+  bool find(const S&, CoreAndRadius&) const {
+    return false;
+  }
+  bool find(const Point<double>& shape, CoreAndRadius& found) const {
+    found = of_point(map.image(shape.position), radius, map.loss_of_image(shape.position));
+    return true;
+  }
+  bool find(const Segment<double>& shape, CoreAndRadius& found) const {
+    found = of_points({shape.points.begin(), shape.points.end()}, map, radius);
+    return true;
+  }
+  bool find(const Triangle<double>& shape, CoreAndRadius& found) const {
+    found = of_points({shape.points.begin(), shape.points.end()}, map, radius);
+    return true;
+  }
+  bool find(const Hull<double>& shape, CoreAndRadius& found) const {
+    found = of_points(shape.points.points(), map, radius);
+    return true;
+  }
+  bool find(const Box<double>& shape, CoreAndRadius& found) const {
+    ShapeCore core;
+    core.kind = CoreKind::box;
+    core.size = shape.half_extents;
+    if (!keeps_right_angles(linear())) return false;
+    found = along_columns(core);
+    found.core.ball = length_of<double>(found.core.size) * padding;
+    return true;
+  }
+  bool find(const Sphere<double>& shape, CoreAndRadius& found) const {
+    if (!(similarity > 0))
+      return find(Ellipsoid<double>{Vec3<double>::Constant(shape.radius)}, found);
+    found = of_point(map.translation, radius + shape.radius * similarity, map.loss);
+    return true;
+  }
+  bool find(const Ellipsoid<double>& shape, CoreAndRadius& found) const {
+    ShapeCore core;
+    core.kind = CoreKind::ellipsoid;
+    core.size = shape.radii;
+    if (!keeps_right_angles(linear())) return false;
+    found = along_columns(core);
+    const Vec3<double> radii = found.core.size;
+    if (radii.minCoeff() == radii.maxCoeff())
+      found = of_point(map.translation, radius + radii.x(), map.loss);
+    else
+      found.core.ball = radii.maxCoeff() * padding;
+    return true;
+  }
+  bool find(const Capsule<double>& shape, CoreAndRadius& found) const {
+    if (!(similarity > 0)) return false;
+    found = upright_segment(shape.half_height, radius + shape.radius * similarity);
+    return true;
+  }
+  bool disks(double below, double above, double half_height, CoreAndRadius& found) const {
+    if (!(similarity > 0)) return false;
+    if (!(below > 0) && !(above > 0)) {
+      found = upright_segment(half_height, radius);
+      return true;
+    }
+    found = scaled(of_disks(below, above, half_height));
+    return true;
+  }
+  bool find(const Disk<double>& shape, CoreAndRadius& found) const {
+    return disks(shape.radius, shape.radius, 0, found);
+  }
+  bool find(const Cylinder<double>& shape, CoreAndRadius& found) const {
+    return disks(shape.radius, shape.radius, shape.half_height, found);
+  }
+  bool find(const Cone<double>& shape, CoreAndRadius& found) const {
+    return disks(shape.radius, 0, shape.half_height, found);
+  }
+  bool find(const Frustum<double>& shape, CoreAndRadius& found) const {
+    return disks(shape.radii[0], shape.radii[1], shape.half_height, found);
+  }
+  bool find(const TaperedCapsule<double>& shape, CoreAndRadius& found) const {
+    if (!(similarity > 0)) return false;
+    const TaperedCapsule<double> upright{{shape.radii[0] * similarity, shape.radii[1] * similarity},
+                                         shape.half_height * similarity};
+    found = of_other(Shape<double>(upright), {}, radius);
+    found.core.is_round = true;
+    found.turn = linear() / similarity;
+    const TwoFoldVec3<double> middle =
+        map.translation + TwoFoldVec3<double>(found.turn * found.middle);
+    found.middle = middle.high;
+    found.middle_low = middle.low;
+    found.core.rounding += map.loss;
+    return true;
+  }
+  bool find(const Rounded<double>& shape, CoreAndRadius& found) const {
+    if (!(similarity > 0)) return false;
+    found = minkray::find(*shape.shape, map, radius + shape.radius * similarity);
+    return true;
+  }
+  bool find(const HullOf<double>& shape, CoreAndRadius& found) const {
+    if (shape.shapes.size() > 1) return false;
+    found = minkray::find(*shape.shapes.front(), map, radius);
+    return true;
+  }
+  bool find(const MinkowskiSum<double>& shape, CoreAndRadius& found) const {
+    BallsAndOne sum;
+    for (const Nested<double>& operand : shape.shapes)
+      if (!sum.add(*operand, map.about_origin())) return false;
+    found = sum.of(map, radius);
+    return true;
+  }
+  bool find(const MinkowskiDifference<double>& shape, CoreAndRadius& found) const {
+    BallsAndOne sum;
+    const ComposedMap about_origin = map.about_origin();
+    if (!sum.add(*shape.a, about_origin) || !sum.add(*shape.b, about_origin.mirrored()))
+      return false;
+    found = sum.of(map, radius);
+    return true;
+  }
+  bool find(const Transform<double>& shape, CoreAndRadius& found) const {
+    found = minkray::find(*shape.shape, map * ComposedMap(shape.map.affine()), radius);
+    return true;
+  }
+};
+
+CoreAndRadius find(const Shape<double>& shape, const ComposedMap& map, double radius) {
+  const double similarity = similarity_of(map.linear.high);
+  const CoreFinder finder{map, radius, similarity};
+  CoreAndRadius found;
+  const bool is_known =
+      std::visit([&](const auto& kind) { return finder.find(kind, found); }, shape.kind);
+  if (!is_known) return of_other(shape, map, radius);
+  if (is_about_origin(shape)) found.core.rounding += loss_of_turns(shape, map, similarity);
+  return found;
+}
+
+}  // namespace
+
+CoreAndRadius core_and_radius(const Shape<double>& shape, const Affine<double>& map) {
+  return find(shape, ComposedMap(map), 0);
+}
+
+}  // namespace minkray

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+// Sums of ellipsoids: a jet with its summands kept separate. The Minkowski sum of two curved
+// features is not an ellipsoid, so one ellipsoid can only osculate it; but the list of both is
+// that part of the shape exactly, h(n) = c.n + sum |F_k^T n|. Nearly every shape is the hull of
+// finitely many of these.
+#pragma once
+
+#include <array>
+
+#include "core/shape/shape.h"
+#include "core/support/jet.h"
+#include "core/support/surface.h"
+
+namespace minkray {
+
+/// { c + sum F_k b_k : |b_k| <= 1 }, the part that touches in one requested direction n.
+template <class W>
+struct EllipsoidSum {
+  /// More are joined into one that osculates.
+  static constexpr std::size_t most = 4;
+
+  Vec3<W> c = Vec3<W>::Zero();
+  std::array<Mat3<W>, most> F = {Mat3<W>::Zero(), Mat3<W>::Zero(), Mat3<W>::Zero(),
+                                 Mat3<W>::Zero()};  ///< columns may be zero
+  std::size_t used = 0;                             ///< those from here on are zero in all lanes
+  Mask<W> exact = Mask<W>(true);                    ///< part of the shape, not only osculating
+  Vec3<W> s = Vec3<W>::Zero();                      ///< the shape's support point in direction n
+  /// If it is exact, c; else the common part of all the ellipsoids that osculate one patch.
+  Vec3<W> patch = Vec3<W>::Zero();
+
+  /// Support function along n, in lengths of n.
+  W support_function(const Vec3<W>& n) const {
+    W reach = c.dot(n);
+    for (std::size_t k = 0; k < used; ++k) reach += (F[k].transpose() * n).norm();
+    return reach;
+  }
+
+  /// Adds an ellipsoid. Ellipsoids of the same proportions become one. Each lane decides for
+  /// itself, so that none depends on the others.
+  void add(const Mat3<W>& other, const Vec3<W>& n) {
+    Mask<W> left = other.cwiseAbs().sum() > W(0);
+    for (std::size_t k = 0; k < most && any(left); ++k) {
+      const W mine = F[k].trace(), its = other.trace();
+      const Mask<W> fits =
+          (F[k].cwiseAbs().sum() == W(0)) |
+          ((mine * its > W(0)) & ((F[k] * its - other * mine).cwiseAbs().sum() == W(0)));
+      const Mask<W> here = left & fits;
+      if (!any(here)) continue;
+      for (int j = 0; j < 3; ++j)
+        F[k].col(j) = select<W>(here, Vec3<W>(F[k].col(j) + other.col(j)), Vec3<W>(F[k].col(j)));
+      used = std::max(used, k + 1);
+      left &= !here;
+    }
+    if (!any(left)) return;
+    const Mat3<W> joined = osculating_sum<W>(F[most - 1], other, n);
+    for (int j = 0; j < 3; ++j)
+      F[most - 1].col(j) = select<W>(left, Vec3<W>(joined.col(j)), Vec3<W>(F[most - 1].col(j)));
+    exact &= !left;
+  }
+};
+
+/// Lane by lane.
+template <class W>
+EllipsoidSum<W> select(const Mask<W>& condition, const EllipsoidSum<W>& a,
+                       const EllipsoidSum<W>& b) {
+  EllipsoidSum<W> chosen;
+  chosen.c = select<W>(condition, a.c, b.c);
+  chosen.used = std::max(a.used, b.used);
+  for (std::size_t k = 0; k < chosen.used; ++k)
+    for (int j = 0; j < 3; ++j)
+      chosen.F[k].col(j) = select<W>(condition, Vec3<W>(a.F[k].col(j)), Vec3<W>(b.F[k].col(j)));
+  chosen.exact = (condition & a.exact) | ((!condition) & b.exact);
+  chosen.s = select<W>(condition, a.s, b.s);
+  chosen.patch = select<W>(condition, a.patch, b.patch);
+  return chosen;
+}
+
+/// The Minkowski sum, in direction n.
+template <class W>
+EllipsoidSum<W> sum_of(EllipsoidSum<W> a, const EllipsoidSum<W>& b, const Vec3<W>& n) {
+  a.c += b.c;
+  a.s += b.s;
+  a.patch += b.patch;
+  a.exact &= b.exact;
+  for (std::size_t k = 0; k < b.used; ++k) a.add(b.F[k], n);
+  return a;
+}
+
+template <class W, class T>
+EllipsoidSum<W> touching_sum(const Shape<T>& shape, const Vec3<W>& n);
+
+namespace detail {
+
+/// The shape's jets are ellipsoids. Those that only osculate are moved to touch the shape.
+template <class W, class S>
+EllipsoidSum<W> sum_of_kind(const S& shape, const Vec3<W>& n) {
+  const Jet<W> jet = shape.jet(n);
+  EllipsoidSum<W> sum;
+  sum.s = jet.support(n);
+  sum.exact = jet.exact | jet.is_point();
+  sum.c = select<W>(jet.exact, jet.c, Vec3<W>(jet.s - jet.F * unit<W>(jet.F.transpose() * n)));
+  sum.patch = jet.c;
+  sum.add(jet.F, n);
+  return sum;
+}
+
+template <class W, class T>
+EllipsoidSum<W> sum_of_kind(const Rounded<T>& shape, const Vec3<W>& n) {
+  EllipsoidSum<W> sum = touching_sum<W>(*shape.shape, n);
+  sum.s += unit<W>(n) * W(shape.radius);
+  sum.add(Mat3<W>(Mat3<W>::Identity() * W(shape.radius)), n);
+  return sum;
+}
+
+template <class W, class T>
+EllipsoidSum<W> sum_of_kind(const MinkowskiSum<T>& sum, const Vec3<W>& n) {
+  EllipsoidSum<W> total = touching_sum<W>(*sum.shapes.front(), n);
+  for (std::size_t i = 1; i < sum.shapes.size(); ++i)
+    total = sum_of<W>(total, touching_sum<W>(*sum.shapes[i], n), n);
+  return total;
+}
+
+template <class W, class T>
+EllipsoidSum<W> sum_of_kind(const MinkowskiDifference<T>& obstacle, const Vec3<W>& n) {
+  EllipsoidSum<W> mirrored = touching_sum<W>(*obstacle.b, Vec3<W>(-n));
+  mirrored.c = -mirrored.c;
+  mirrored.s = -mirrored.s;
+  mirrored.patch = -mirrored.patch;
+  return sum_of<W>(touching_sum<W>(*obstacle.a, n), mirrored, n);
+}
+
+template <class W, class T>
+EllipsoidSum<W> sum_of_kind(const HullOf<T>& hull, const Vec3<W>& n) {
+  EllipsoidSum<W> best = touching_sum<W>(*hull.shapes.front(), n);
+  W furthest = best.s.dot(n);
+  for (std::size_t i = 1; i < hull.shapes.size(); ++i) {
+    const EllipsoidSum<W> other = touching_sum<W>(*hull.shapes[i], n);
+    const W along = other.s.dot(n);
+    const Mask<W> further = along > furthest;
+    best = select<W>(further, other, best);
+    furthest = select(further, along, furthest);
+  }
+  return best;
+}
+
+template <class W, class T>
+EllipsoidSum<W> sum_of_kind(const Transform<T>& moved, const Vec3<W>& n) {
+  EllipsoidSum<W> sum = touching_sum<W>(*moved.shape, moved.map.inner_direction(n));
+  sum.c = moved.map(sum.c);
+  sum.s = moved.map(sum.s);
+  sum.patch = moved.map(sum.patch);
+  for (std::size_t k = 0; k < sum.used; ++k) sum.F[k] = moved.template mapped_factor<W>(sum.F[k]);
+  return sum;
+}
+
+}  // namespace detail
+
+/// The part of the shape that it touches its supporting plane of direction n with.
+template <class W, class T>
+EllipsoidSum<W> touching_sum(const Shape<T>& shape, const Vec3<W>& n) {
+  return std::visit([&](const auto& kind) { return detail::sum_of_kind<W>(kind, n); }, shape.kind);
+}
+
+extern template EllipsoidSum<float> touching_sum(const Shape<float>&, const Vec3<float>&);
+extern template EllipsoidSum<double> touching_sum(const Shape<double>&, const Vec3<double>&);
+
+/// True if the shape is the hull of such sums, judged by a few directions.
+template <class T>
+bool has_exact_sums(const Shape<T>& shape) {
+  for (int i = 0; i < tilted_directions; ++i)
+    if (!touching_sum<T>(shape, tilted_direction<T>(i)).exact) return false;
+  return true;
+}
+
+/// True if the shape is one such sum, without flat summands, judged by a few directions.
+template <class T>
+bool is_ellipsoid_sum(const Shape<T>& shape) {
+  const EllipsoidSum<T> first = touching_sum<T>(shape, tilted_direction<T>(0));
+  if (first.used == 0) return false;
+  for (std::size_t k = 0; k < first.used; ++k)
+    if (first.F[k].col(2).isZero(T(0))) return false;
+  for (int i = 0; i < tilted_directions; ++i) {
+    const EllipsoidSum<T> sum = touching_sum<T>(shape, tilted_direction<T>(i));
+    if (!sum.exact || sum.c != first.c || sum.F != first.F) return false;
+  }
+  return true;
+}
+
+}  // namespace minkray

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// A shape prepared for queries on pairs, once: no pair needs to be prepared. And the relative pose
+// of two of them: here all pairs are brought near, so that solvers handle numbers of the bodies'
+// size and of their distance only.
+#pragma once
+
+#include "core/derived/convert.h"
+#include "core/derived/core_and_radius.h"
+#include "core/math/affine.h"
+#include "core/pair/core_pair.h"
+#include "core/support/composed_map.h"
+
+namespace minkray {
+
+/// Immutable and cheap to copy. All numbers are doubles, even for shapes in float.
+class ContactShape {
+ public:
+  /// `map` leads from the shape's frame to the body's; any invertible map.
+  explicit ContactShape(const Shape<double>& shape, const Affine<double>& map = {})
+      : ContactShape(core_and_radius(shape, map)) {}
+  explicit ContactShape(CoreAndRadius core_and_radius)
+      : core_and_radius_(std::move(core_and_radius)),
+        is_turned_(core_and_radius_.turn != Mat3<double>::Identity()),
+        is_moved_(core_and_radius_.middle != Vec3<double>::Zero()),
+        offset_(length_of(core_and_radius_.middle)) {}
+  explicit ContactShape(const Shape<float>& shape) : ContactShape(convert<double>(shape)) {}
+
+  const ShapeCore& core() const { return core_and_radius_.core; }
+  /// Rotation from the core's frame to the body's; keeps lengths.
+  const Mat3<double>& turn() const { return core_and_radius_.turn; }
+  const Vec3<double>& middle() const { return core_and_radius_.middle; }
+  TwoFoldVec3<double> exact_middle() const {
+    return {core_and_radius_.middle, core_and_radius_.middle_low};
+  }
+  /// True if the core's frame is turned, and if its middle is not the body's origin: most are
+  /// neither, which saves half of the work of placing a pair.
+  bool is_turned() const { return is_turned_; }
+  bool is_moved() const { return is_moved_; }
+  /// Distance of the middle from the body's origin.
+  double offset() const { return offset_; }
+  /// Middles further out than this, in the body's size, are placed in twice the digits.
+  bool is_far_out() const {
+    constexpr double far = 4;
+    return offset_ > far * ball_radius();
+  }
+  /// The ball of this radius around the middle holds the shape.
+  double ball_radius() const { return core_and_radius_.core.ball + core_and_radius_.core.radius; }
+
+ private:
+  CoreAndRadius core_and_radius_;
+  bool is_turned_, is_moved_;
+  double offset_;
+};
+
+/// Pose of a core in the world.
+struct PlacedCore {
+  Mat3<double> turn;  ///< from the core's frame to the world
+  Vec3<double> middle;
+};
+
+/// From the core's frame to the world.
+inline Mat3<double> turn_in_world(const ContactShape& shape, const Mat3<double>& linear) {
+  if (!shape.is_turned()) return linear;
+  return linear * shape.turn();
+}
+inline Mat3<double> turn_in_world(const ContactShape& shape, const Affine<double>& pose) {
+  return turn_in_world(shape, pose.linear);
+}
+
+inline Vec3<double> middle_in_world(const ContactShape& shape, const Affine<double>& pose) {
+  if (!shape.is_moved()) return pose.translation;
+  if (shape.is_far_out()) return image_of(pose, shape.exact_middle()).rounded();
+  return pose(shape.middle());
+}
+
+/// `pose` is rigid: its linear part is a rotation, or a reflection, to rounding.
+PlacedCore placed(const ContactShape& shape, const Affine<double>& pose);
+
+/// The middle in the world in twice the digits, and by how much it may be off.
+struct PlacedMiddle {
+  TwoFoldVec3<double> at;
+  double loss = 0;
+};
+PlacedMiddle placed_middle(const ContactShape& shape, const Affine<double>& pose);
+
+/// From one point to another, along the axes of the world, and by how much that may be off: what
+/// the points' places have cost, and nothing that is an epsilon of the vector itself.
+struct Between {
+  Vec3<double> x;
+  double loss = 0;
+};
+
+/// From A's middle to B's. The two places are subtracted before anything is rounded.
+Between between_middles(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
+                        const Affine<double>& pose_b);
+
+/// B as A sees it. `turn_a` is A's turn_in_world().
+CorePair pair_of(const ContactShape& a, const Affine<double>& pose_a, const Mat3<double>& turn_a,
+                 const ContactShape& b, const Affine<double>& pose_b);
+CorePair pair_of(const ContactShape& a, const Mat3<double>& turn_a, const ContactShape& b,
+                 const Mat3<double>& turn_b, const Between& between);
+
+}  // namespace minkray

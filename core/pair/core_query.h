@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// A distance search: two cores, the criteria for its end, and the best result so far. Shared by
+// the methods that search for it (GJK, sliding features, flat ends).
+#pragma once
+
+#include "core/pair/core_pair.h"
+
+namespace minkray {
+
+/// Points this near to each other, in sizes, are common.
+inline constexpr double common_point = 1e-15;
+
+template <CoreKind A, CoreKind B>
+struct CoreQuery {
+  const CorePair& pair;
+  const CoreSearch& search;
+  double size = pair.size();
+  double gap = search.gap * size;  ///< bounds this near to each other have met
+  CoreDistance result = {};
+
+  DifferencePoint nearest(const Vec3<double>& d) {
+    ++result.supports;
+    return nearest_along<A, B>(pair, d);
+  }
+
+  /// The answer is this point of A, and c from it. Always true.
+  bool end_at(CoreStatus status, const Vec3<double>& a, const Vec3<double>& c) {
+    result.status = status;
+    result.a = a;
+    result.c = c;
+    result.upper = c.norm();
+    if (status == CoreStatus::overlapping && result.lower > 0) {
+      result.status = CoreStatus::unsettled;
+      result.upper = std::numeric_limits<double>::infinity();
+    }
+    return true;
+  }
+};
+
+}  // namespace minkray

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Final state of a query on a pair of bodies, kept by the caller for the next frame: the separating
+// axis (G. van den Bergen, "Ray Casting against General Convex Objects", 2004, section 4) and the
+// features of the nearest points. Only the start of a search, never the basis of a result: whatever
+// the contents, even from another pair, the bounds are proven again.
+#pragma once
+
+#include <cstdint>
+
+#include "core/derived/core_and_radius.h"
+
+namespace minkray {
+
+struct PairMemory {
+  /// The direction of the last answer, as the first of the two cores sees it; zero: there is none.
+  Vec3<double> axis = Vec3<double>::Zero();
+  /// The features of the nearest points, on the first core and on the second.
+  std::int32_t feature_a[4] = {}, feature_b[4] = {};
+  std::int32_t count = 0;
+
+  /// NaN is none.
+  bool has_axis() const {
+    constexpr double near_one = 1e-6;
+    return std::abs(axis.squaredNorm() - 1) < near_one;
+  }
+};
+
+/// True if the core has a feature of this number.
+inline bool is_feature_of(const ShapeCore& core, std::int32_t feature) {
+  switch (core.kind) {
+    case CoreKind::point:
+    case CoreKind::ellipsoid:
+      return feature == 0;
+    case CoreKind::segment:
+    case CoreKind::disks:
+      return feature == 0 || feature == 1;
+    case CoreKind::box:
+      return feature >= 0 && feature < 8;
+    case CoreKind::hull:
+      return feature >= 0 && feature < core.count;
+    case CoreKind::other:
+      break;
+  }
+  return false;
+}
+
+}  // namespace minkray

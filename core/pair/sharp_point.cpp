@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#include "core/pair/sharp_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace minkray {
+namespace {
+
+bool is_sharp_at_box(const ShapeCore& core, const Vec3<double>& point, double off) {
+  int faces = 0;
+  for (int i = 0; i < 3; ++i) faces += std::abs(point[i]) >= core.size[i] - off ? 1 : 0;
+  return faces > 1;
+}
+
+/// On a rim, or at the tip of a cone.
+bool is_sharp_at_disks(const ShapeCore& core, const Vec3<double>& point, double off) {
+  const double across = std::sqrt(point.x() * point.x() + point.y() * point.y());
+  const auto is_at = [&](double rim, double z) {
+    return std::abs(point.z() - z) <= off && std::abs(across - rim) <= off;
+  };
+  return is_at(core.size.x(), -core.size.z()) || is_at(core.size.y(), core.size.z());
+}
+
+/// True if the viewpoint of the three corners is outside of their triangle or on its rim.
+template <class Corner>
+bool is_on_rim(const Corner* corners, double near) {
+  int left = 0, right = 0;
+  for (int i = 0; i < 3; ++i) {
+    const Corner &a = corners[i], &b = corners[(i + 1) % 3];
+    const double x = b.x - a.x, y = b.y - a.y;
+    const double height = (a.x * b.y - a.y * b.x) / std::sqrt(x * x + y * y);
+    left += height > near ? 1 : 0;
+    right += height < -near ? 1 : 0;
+  }
+  return left < 3 && right < 3;
+}
+
+/// The hull's points that lie in the plane, seen from the point: it is inside their polygon, or on
+/// its rim.
+bool is_sharp_at_hull(const ShapeCore& core, const Vec3<double>& point, const Vec3<double>& n,
+                      double off) {
+  constexpr double flat = 1e-12;  // in sizes: faces' corners lie in a plane but for their rounding
+  const double near = off + flat * core.ball;
+  const Vec3<double> u = n.unitOrthogonal(), v = n.cross(u);
+  struct Corner {
+    double angle, x, y;
+  };
+  thread_local std::vector<Corner> corners;
+  corners.clear();
+  for (int i = 0; i < core.count; ++i) {
+    const Vec3<double> to = Vec3<double>(core.x[i], core.y[i], core.z[i]) - point;
+    if (std::abs(n.dot(to)) > near) continue;
+    const double x = u.dot(to), y = v.dot(to);
+    if (x * x + y * y <= near * near) return true;
+    corners.push_back({0, x, y});
+  }
+  if (corners.size() < 3) return true;
+  if (corners.size() == 3) return is_on_rim(corners.data(), near);
+  for (Corner& corner : corners) corner.angle = std::atan2(corner.y, corner.x);
+  std::ranges::sort(corners, {}, &Corner::angle);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Corner &a = corners[i], &b = corners[i + 1 < corners.size() ? i + 1 : 0];
+    const double angle = b.angle - a.angle + (i + 1 < corners.size() ? 0 : 2 * std::numbers::pi);
+    if (angle >= std::numbers::pi) return true;
+    if (a.x * b.y - a.y * b.x <= near * std::hypot(b.x - a.x, b.y - a.y) &&
+        angle > std::numbers::pi / 2)
+      return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool is_sharp_at(const ShapeCore& core, const Vec3<double>& point, const Vec3<double>& n,
+                 double off) {
+  switch (core.kind) {
+    case CoreKind::point:
+    case CoreKind::segment:
+      return true;
+    case CoreKind::box:
+      return is_sharp_at_box(core, point, off);
+    case CoreKind::disks:
+      return is_sharp_at_disks(core, point, off);
+    case CoreKind::hull:
+      return is_sharp_at_hull(core, point, n, off);
+    case CoreKind::ellipsoid:
+    case CoreKind::other:
+      break;
+  }
+  return false;
+}
+
+}  // namespace minkray

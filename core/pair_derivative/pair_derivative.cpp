@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include "core/pair_derivative/pair_derivative.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/pair/core_pair.h"
+#include "core/pair/flat_part.h"
+#include "core/pair_derivative/pair_derivative_sharpen.h"
+
+namespace minkray {
+namespace {
+
+constexpr double not_known = std::numeric_limits<double>::infinity();
+
+PairDerivative unknown(bool is_ridge) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const Vec3<double> nans(nan, nan, nan);
+  return {{nans, nans}, {nans, nans}, is_ridge};
+}
+
+/// Angle by which the normal may lean, if a step of that length along it is between bounds this
+/// far apart.
+double tilt_of(double interval, double length) {
+  constexpr double most = 1e-3;
+  constexpr double least = 1e-12;  // rounding of a direction turned to a body's frame, and more
+  const double tilt = std::sqrt(2 * interval / length);
+  return tilt < most ? std::max(tilt, least) : most;  // NaN, too
+}
+
+bool has_flat_parts(const ShapeCore& core) {
+  return core.kind != CoreKind::point && core.kind != CoreKind::ellipsoid;
+}
+
+/// Slow cores are those whose points are all visited.
+bool is_slow(const ShapeCore& core) {
+  return core.kind == CoreKind::hull || core.kind == CoreKind::other;
+}
+
+/// True if the bodies may touch each other in more than a point when they are moved together.
+bool have_many_points(const ContactShape& a, const Mat3<double>& linear_a, const ContactShape& b,
+                      const Mat3<double>& linear_b, const Vec3<double>& normal, double interval,
+                      double length) {
+  if (!has_flat_parts(a.core()) || !has_flat_parts(b.core())) return false;
+  if (is_slow(a.core()) && !is_slow(b.core()))
+    return have_many_points(b, linear_b, a, linear_a, -normal, interval, length);
+  const double tilt = tilt_of(interval, length);
+  const Mat3<double> turn_a = turn_in_world(a, linear_a);
+  const FlatPart of_a = flat_part(a.core(), turn_a.transpose() * normal, tilt);
+  if (of_a.dimension == 0) [[likely]]
+    return false;
+  const Mat3<double> turn_b = turn_in_world(b, linear_b);
+  const FlatPart of_b = flat_part(b.core(), turn_b.transpose() * -normal, tilt);
+  if (of_b.dimension == 0) return false;
+  if (of_a.dimension == 2 || of_b.dimension == 2) return true;
+  // Two edges have one common point, unless they are as good as parallel: at the end of the shorter
+  // one the gap has grown by less than the bounds are apart.
+  const double sine = (turn_a * of_a.along).cross(turn_b * of_b.along).norm();
+  const double shorter = std::min(of_a.length, of_b.length);
+  return sine <= tilt || sine * shorter <= std::sqrt(2 * interval * length);
+}
+
+/// Angle by which other directions of the depth may lean, infinite if they may be any. Deeper along
+/// the normal by `step` sizes, all others are better than it: the depth is a concave function of
+/// B's place.
+double tilt_of_depth(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
+                     const Affine<double>& pose_b, const SignedDistance& found, double step,
+                     double tolerance) {
+  const double way = step * (a.ball_radius() + b.ball_radius());
+  Between deeper = between_middles(a, pose_a, b, pose_b);
+  deeper.x -= way * found.normal;
+  SignedDistanceOptions how;
+  how.tolerance = tolerance;
+  const SignedDistance there =
+      signed_distance(a, pose_a.linear, b, pose_b.linear, deeper, how, nullptr);
+  const double lean = (there.upper - (found.lower - way)) / way;  // 1 less a cosine
+  return lean <= leaning ? std::sqrt(2 * std::max(lean, 0.0)) : not_known;
+}
+
+/// Separates directions that are nearly as deep by a short step, which takes longest.
+double tilt_of_depth(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
+                     const Affine<double>& pose_b, const SignedDistance& found) {
+  constexpr double rounded = 1.01;
+  if (found.has_one_direction) [[likely]]
+    return rounded * std::sqrt(2 * leaning);
+  double tilt = tilt_of_depth(a, pose_a, b, pose_b, found, 1e-4, 1e-9);
+  if (tilt == not_known) tilt = tilt_of_depth(a, pose_a, b, pose_b, found, 1e-7, 1e-14);
+  return rounded * tilt;
+}
+
+/// True if the normal that was found may lean by more than derivatives should: of shapes known by
+/// their support mapping only, and of those that nearly touch and have no closed form.
+bool may_be_rough(const ShapeCore& a, const ShapeCore& b, double interval, double between_cores) {
+  if (a.kind == CoreKind::other || b.kind == CoreKind::other) return true;
+  constexpr double precise = 1e-6;
+  const auto is_searched = [](const ShapeCore& core) {
+    return core.kind != CoreKind::point && core.kind != CoreKind::segment;
+  };
+  return between_cores > interval && is_searched(a) && is_searched(b) &&
+         tilt_of(interval, between_cores) > precise;
+}
+
+TwistDerivative of_point(const Vec3<double>& weight, const Vec3<double>& arm) {
+  return {weight, arm.cross(weight)};
+}
+
+/// The turn by a rotation vector.
+Mat3<double> turned_by(const Vec3<double>& rotation) {
+  const double angle = rotation.norm();
+  if (!(angle > 0)) return Mat3<double>::Identity();
+  return Eigen::AngleAxis<double>(angle, rotation / angle).toRotationMatrix();
+}
+
+/// The contact of the cores that was found, as precise as it can be had.
+CoreContact contact_of(const CoresInWorld& cores, const Vec3<double>& middle,
+                       const SignedDistance& found, bool is_rough) {
+  const double radii = cores.a.radius + cores.b.radius;
+  CoreContact contact{found.normal, found.point_a - middle - cores.a.radius * found.normal,
+                      found.point_b - found.point_a + radii * found.normal};
+  if (is_rough) sharpen(cores, contact);
+  return contact;
+}
+
+}  // namespace
+
+PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a,
+                             const ContactShape& b, const Affine<double>& pose_b,
+                             const SignedDistance& found, PairDerivativeError* error) {
+  const double interval = found.upper - found.lower;
+  if (error) *error = {};
+  if (found.is_unknown() || !std::isfinite(interval)) return unknown(true);
+  PairDerivative derivative{of_point(-found.normal, found.point_a - pose_a.translation),
+                            of_point(found.normal, found.point_b - pose_b.translation)};
+  const double between_cores = found.value + a.core().radius + b.core().radius;
+  double depth_tilt = not_known;
+  derivative.is_ridge = have_many_points(a, pose_a.linear, b, pose_b.linear, found.normal, interval,
+                                         std::abs(between_cores));
+  if (!derivative.is_ridge && !(between_cores > interval)) {
+    depth_tilt = tilt_of_depth(a, pose_a, b, pose_b, found);
+    derivative.is_ridge = depth_tilt == not_known;
+  }
+  const bool is_rough = may_be_rough(a.core(), b.core(), interval, between_cores);
+  if (!is_rough && !error) return derivative;
+  const CoresInWorld cores(a, pose_a, b, pose_b);
+  const Vec3<double> middle = middle_in_world(a, pose_a);
+  const CoreContact contact = contact_of(cores, middle, found, is_rough);
+  const Vec3<double> origin_a = pose_a.translation - middle, origin_b = pose_b.translation - middle;
+  if (is_rough) {
+    // Radii do not matter to arms across the normal.
+    derivative.a = of_point(-contact.normal, contact.a - origin_a);
+    derivative.b = of_point(contact.normal, contact.a + contact.c - origin_b);
+  }
+  if (error && !derivative.is_ridge) {
+    depth_tilt += (contact.normal - found.normal).norm();
+    *error = error_of(cores, contact, found, depth_tilt, origin_a, origin_b);
+  }
+  return derivative;
+}
+
+PairDerivative finest_derivative_of(const ContactShape& a, const Affine<double>& pose_a,
+                                    const ContactShape& b, const Affine<double>& pose_b) {
+  return derivative_of(a, pose_a, b, pose_b,
+                       signed_distance(a, pose_a, b, pose_b, for_derivatives()));
+}
+
+PairDerivative derivative_at_half_space(const Vec3<double>& origin, const ContactShape& b,
+                                        const Affine<double>& pose_b, const SignedDistance& found) {
+  if (found.is_unknown()) return unknown(true);
+  PairDerivative derivative{of_point(-found.normal, found.point_a - origin),
+                            of_point(found.normal, found.point_b - pose_b.translation)};
+  // The normal is known to rounding.
+  constexpr double tilt = 64 * std::numeric_limits<double>::epsilon();
+  const Vec3<double> down = turn_in_world(b, pose_b.linear).transpose() * -found.normal;
+  derivative.is_ridge = flat_part(b.core(), down, tilt).dimension > 0;
+  return derivative;
+}
+
+PairDerivative derivative_of(const ContactShape& a, const RigidMotion& motion_a,
+                             const ContactShape& b, const RigidMotion& motion_b,
+                             const Impact& found) {
+  if (found.status == ImpactStatus::miss) return unknown(false);
+  if (found.status == ImpactStatus::inside) return {};
+  if (found.status == ImpactStatus::undecided || !std::isfinite(found.distance))
+    return unknown(true);
+  const double time = found.t_lo;
+  const auto velocity_of = [&](const RigidMotion& motion, const Vec3<double>& arm) {
+    return Vec3<double>(motion.velocity + motion.angular_velocity.cross(arm));
+  };
+  const auto arm_of = [&](const RigidMotion& motion, const Vec3<double>& point) {
+    return Vec3<double>(point - (motion.pose.translation + time * motion.velocity));
+  };
+  const Vec3<double> arm_a = arm_of(motion_a, found.point_a),
+                     arm_b = arm_of(motion_b, found.point_b);
+  const Vec3<double> velocity_a = velocity_of(motion_a, arm_a),
+                     velocity_b = velocity_of(motion_b, arm_b);
+  const double closing = found.normal.dot(velocity_a - velocity_b);
+  const Mat3<double> turn_a = turned_by(time * motion_a.angular_velocity),
+                     turn_b = turned_by(time * motion_b.angular_velocity);
+  // A turn of the body at time 0 acts later about an axis that has turned with it.
+  const auto back = [&](TwistDerivative derivative, const Mat3<double>& turn) {
+    derivative.by_turn = turn.transpose() * derivative.by_turn;
+    return derivative;
+  };
+  PairDerivative derivative{back(of_point(-found.normal / closing, arm_a), turn_a),
+                            back(of_point(found.normal / closing, arm_b), turn_b)};
+  constexpr double grazing = 1e-6;  // of the points' speeds: less is no approach to speak of
+  constexpr double known = 1e-12;   // of the sizes: what the normal of a contact is known to
+  const double size = a.ball_radius() + b.ball_radius();
+  derivative.is_ridge =
+      !(closing > grazing * (velocity_a.norm() + velocity_b.norm())) ||
+      have_many_points(a, turn_a * motion_a.pose.linear, b, turn_b * motion_b.pose.linear,
+                       found.normal, known * known * size, size);
+  return derivative;
+}
+
+}  // namespace minkray

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Derivatives of a pair's signed distance, and of the time of its first contact, when the bodies
+// are moved a little: by the envelope theorem the nearest points may be assumed fixed on the
+// bodies (J. Danskin, "The Theory of Max-Min, with Applications", 1966). If there are several
+// pairs of them, or several directions of the depth, there are several derivatives.
+#pragma once
+
+#include <algorithm>
+
+#include "core/pair_derivative/pair_derivative_error.h"
+#include "core/pair_distance/half_space_distance.h"
+#include "core/pair_motion/impact.h"
+
+namespace minkray {
+
+/// Derivatives by the velocity of the body's origin along the world's axes, and by its angular
+/// velocity about that point.
+struct TwistDerivative {
+  Vec3<double> by_velocity = Vec3<double>::Zero();
+  Vec3<double> by_turn = Vec3<double>::Zero();
+};
+
+struct PairDerivative {
+  TwistDerivative a, b;
+  /// The bounds do not exclude that there are other derivatives; this is one of them.
+  bool is_ridge = false;
+};
+
+/// Options for queries whose results are used for derivatives.
+inline SignedDistanceOptions for_derivatives(SignedDistanceOptions options = {}) {
+  constexpr double coarsest = 1e-10;
+  options.tolerance = std::min(options.tolerance, coarsest);
+  options.is_for_derivatives = true;
+  return options;
+}
+
+/// `found` is the result on this pair, computed with for_derivatives(), with both of its bounds;
+/// else nothing is known: NaN, and a ridge. Fills `error`, if there is one.
+PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a,
+                             const ContactShape& b, const Affine<double>& pose_b,
+                             const SignedDistance& found, PairDerivativeError* error = nullptr);
+
+/// Computes the signed distance, too, as finely as that needs.
+PairDerivative finest_derivative_of(const ContactShape& a, const Affine<double>& pose_a,
+                                    const ContactShape& b, const Affine<double>& pose_b);
+
+/// B is the shape passed to distance_to_half_space(). A's origin is `origin`.
+PairDerivative derivative_at_half_space(const Vec3<double>& origin, const ContactShape& b,
+                                        const Affine<double>& pose_b, const SignedDistance& found);
+
+/// Takes t_lo by a twist of each body at time 0. Zero where they begin inside each other; NaN where
+/// there is no contact.
+PairDerivative derivative_of(const ContactShape& a, const RigidMotion& motion_a,
+                             const ContactShape& b, const RigidMotion& motion_b,
+                             const Impact& found);
+
+}  // namespace minkray

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Bounds of the errors of a distance's derivative (docs/pairs.md, "Errors of derivatives"): from
+// what the distance's bounds leave to the direction, and how far support points slide meanwhile.
+#pragma once
+
+#include "core/pair_derivative/pair_derivative_sharpen.h"
+#include "core/pair_distance/signed_distance.h"
+
+namespace minkray {
+
+/// The length of the difference from the true derivative is no more. Infinite where nothing is
+/// known: on ridges, of depths in more than one direction, of turns about what may slide.
+struct TwistError {
+  double by_velocity = std::numeric_limits<double>::infinity();
+  double by_turn = std::numeric_limits<double>::infinity();
+};
+
+struct PairDerivativeError {
+  TwistError a, b;
+};
+
+/// `contact` is what the derivative was made of. Directions of a depth lean by `depth_tilt` at
+/// most, which is infinite where that is not known. `origin_a` and `origin_b` are the bodies'
+/// origins, seen from A's middle.
+PairDerivativeError error_of(const CoresInWorld& cores, const CoreContact& contact,
+                             const SignedDistance& found, double depth_tilt,
+                             const Vec3<double>& origin_a, const Vec3<double>& origin_b);
+
+}  // namespace minkray

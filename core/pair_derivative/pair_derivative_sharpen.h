@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Nearest points of two cores and their direction, more precise than bounds of a distance need:
+// those of a core known by its support mapping lean by the square root of what is between the
+// bounds.
+#pragma once
+
+#include "core/pair/contact_shape.h"
+
+namespace minkray {
+
+/// Two cores along the axes of the world, seen from A's middle.
+struct CoresInWorld {
+  const ShapeCore& a;
+  const ShapeCore& b;
+  Mat3<double> turn_a, turn_b;
+  Between between;
+
+  CoresInWorld(const ContactShape& shape_a, const Affine<double>& pose_a,
+               const ContactShape& shape_b, const Affine<double>& pose_b)
+      : a(shape_a.core()),
+        b(shape_b.core()),
+        turn_a(turn_in_world(shape_a, pose_a)),
+        turn_b(turn_in_world(shape_b, pose_b)),
+        between(between_middles(shape_a, pose_a, shape_b, pose_b)) {}
+
+  Vec3<double> support_a(const Vec3<double>& n) const;
+  Vec3<double> support_b(const Vec3<double>& n) const;  ///< furthest along n, seen from A's middle
+  double size() const { return a.ball + b.ball; }
+  /// Error of support points.
+  double rounding() const { return core_rounding * (size() + between.x.norm()) + between.loss; }
+};
+
+/// c leads from a point of A to one of B.
+struct CoreContact {
+  Vec3<double> normal, a, c;
+};
+
+/// Improves a contact whose normal is nearly right; leaves it where nothing better is found.
+void sharpen(const CoresInWorld& cores, CoreContact& contact);
+
+}  // namespace minkray

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: MIT
+// The penetration depth of cores that overlap, by a polytope within C that grows around the origin
+// (G. van den Bergen, "Proximity Queries and Penetration Depth Computation on 3D Game Objects",
+// 2001): the face nearest to the origin gives way to the support point beyond it, until there is
+// none. For polytopes that is exact.
+//
+// Both bounds hold whatever rounding does to the faces. The plane through a support point bounds
+// the depth from above. From below it is bounded by the least distance d of a face, since the faces
+// are a closed surface that winds around the origin once: so it does around all points nearer to
+// the origin, and those are in the hull of its vertices, which are points of C. Growing keeps it
+// so: a face may give way to a point w if none of its points nor w is on the origin's side of a
+// plane that the origin is not on. So d may be found with any normal n, as the least n.y of the
+// three vertices, however far the three are from making a plane.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "core/pair/core_query.h"
+#include "core/pair/simplex_point.h"
+
+namespace minkray {
+
+template <CoreKind A, CoreKind B>
+class ExpandingPolytope {
+ public:
+  /// Searches until the bounds are this near to each other, in sizes. Starts from what was found.
+  ExpandingPolytope(const CorePair& pair, double gap, const CoreDistance& found)
+      : pair_(pair), size_(pair.size() + pair.x.norm()), gap_(gap * size_), found_(found) {
+    found_.upper = 0;
+  }
+
+  /// Grows from four points of C around the origin, c and the a of each. Returns whether the bounds
+  /// have met; they hold anyway. Then a and c are what the depth is seen at: c = upper * axis.
+  bool run(const Vec3<double>* c, const Vec3<double>* a) {
+    if (!start(c, a)) return false;
+    while (found_.supports < most_supports) {
+      const int nearest = pop();
+      // Faces further off than the depth can be are not kept apart: none of them is the nearest.
+      const bool is_none = nearest < 0 || faces_[nearest].d >= -found_.lower;
+      found_.upper = is_none ? found_.lower : -faces_[nearest].d;
+      if (is_none) return finish(found_.lower, found_.axis);
+      const Face& face = faces_[nearest];
+      const Vec3<double> axis = -face.n;
+      const DifferencePoint w = nearest_along<A, B>(pair_, axis);
+      ++found_.supports;
+      const double height = axis.dot(w.c);
+      found_.raise_lower(height, axis);
+      if (found_.upper - height <= gap_) return finish(height, axis);
+      if (count_ == most_points) return false;
+      y_[count_] = w.c;
+      a_[count_] = w.a;
+      if (!grow(nearest)) return false;
+      ++count_;
+    }
+    return false;
+  }
+
+  /// True if the origin is within four points of C for sure: then a polytope may begin with them.
+  bool begins(const Vec3<double>* c, const Vec3<double>* a) { return start(c, a); }
+
+  const CoreDistance& found() const { return found_; }
+
+ private:
+  static constexpr int most_points = 400, most_faces = 2 * most_points,
+                       most_heaped = 4 * most_faces, most_supports = 1000;
+  /// In sizes: what is as near to a plane is in it.
+  static constexpr double in_plane = 1e-14;
+  /// Rounding of a volume between four points of C, in products of the lengths of two sides and
+  /// the size: differences, a cross product and a dot product of numbers no larger than that.
+  static constexpr double rounded_volume = 32 * std::numeric_limits<double>::epsilon();
+
+  struct Face {
+    Vec3<double> n;
+    double d;
+    int corner[3];
+    int beside[3];  ///< across the edge from corner k to the next: 4 times the face, plus its edge
+    bool is_there;
+  };
+  struct Heaped {
+    double d;
+    int face;
+    bool operator<(const Heaped& other) const { return d > other.d; }
+  };
+  struct Edge {
+    int from, to, beside;
+  };
+
+  bool start(const Vec3<double>* c, const Vec3<double>* a) {
+    const double volume = (c[1] - c[0]).cross(c[2] - c[0]).dot(c[3] - c[0]);
+    if (!(std::abs(volume) > 0)) return false;
+    for (int i = 0; i < 4; ++i) {
+      y_[i] = c[i];
+      a_[i] = a[i];
+    }
+    if (volume > 0) {
+      std::swap(y_[0], y_[1]);
+      std::swap(a_[0], a_[1]);
+    }
+    count_ = 4;
+    constexpr int corners[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}};
+    for (const auto& corner : corners) {
+      // Here the origin must be on the inner side for sure: all else follows from that. For
+      // slivers n itself is rounding.
+      const Vec3<double>& from = y_[corner[0]];
+      const Vec3<double> e1 = y_[corner[1]] - from, e2 = y_[corner[2]] - from, n = e1.cross(e2);
+      const double n_rounding = rounded_volume * e1.norm() * e2.norm();
+      if (!(n.dot(from) > (in_plane * n.norm() + n_rounding) * size_)) return false;
+      if (add_face(corner[0], corner[1], corner[2]) < 0) return false;
+    }
+    for (int f = 0; f < 4; ++f)
+      for (int k = 0; k < 3; ++k)
+        for (int g = 0; g < 4; ++g)
+          for (int l = 0; l < 3; ++l)
+            if (faces_[f].corner[k] == faces_[g].corner[(l + 1) % 3] &&
+                faces_[f].corner[(k + 1) % 3] == faces_[g].corner[l])
+              faces_[f].beside[k] = 4 * g + l;
+    return true;
+  }
+
+  /// The face's index; negative if there is none that the origin is inside of.
+  int add_face(int i, int j, int k) {
+    if (free_count_ == 0 && face_count_ == most_faces) return -1;
+    const int index = free_count_ > 0 ? free_[--free_count_] : face_count_++;
+    Face& face = faces_[index];
+    face.corner[0] = i;
+    face.corner[1] = j;
+    face.corner[2] = k;
+    face.is_there = true;
+    const Vec3<double> n = (y_[j] - y_[i]).cross(y_[k] - y_[i]);
+    const double squared = n.squaredNorm();
+    bool is_flat = false;
+    if (squared > 0) {
+      face.n = n / std::sqrt(squared);
+      const double a = face.n.dot(y_[i]), b = face.n.dot(y_[j]), c = face.n.dot(y_[k]);
+      face.d = std::min(std::min(a, b), c);
+      is_flat = std::max(std::max(a, b), c) - face.d <= in_plane * size_;
+    }
+    if (!is_flat || !(face.d > 0)) {
+      // A sliver: the point nearest to the origin is more precise than a normal of rounding.
+      const Vec3<double> corners[3] = {y_[i], y_[j], y_[k]};
+      const SimplexPoint closest = closest_of_simplex(corners, 3, false);
+      const double length = std::sqrt(closest.squared);
+      if (closest.kept == 0 || !(length > 0)) return -1;
+      face.n = closest.v / length;
+      face.d = std::min({face.n.dot(y_[i]), face.n.dot(y_[j]), face.n.dot(y_[k])});
+      if (!(face.d > 0)) return -1;
+    }
+    // Leaves out faces that are further away than the depth can be.
+    if (face.d >= -found_.lower) return index;
+    if (heaped_ == most_heaped) return -1;
+    heap_[heaped_++] = {face.d, index};
+    std::push_heap(heap_, heap_ + heaped_);
+    return index;
+  }
+
+  /// The face nearest to the origin; negative if none is nearer than the depth can be.
+  int pop() {
+    while (heaped_ > 0) {
+      const Heaped top = heap_[0];
+      if (faces_[top.face].is_there && faces_[top.face].d == top.d) return top.face;
+      std::pop_heap(heap_, heap_ + heaped_--);
+    }
+    return -1;
+  }
+
+  /// All faces that the newest point is beyond of, from `first` on, give way to it.
+  bool grow(int first) {
+    const Vec3<double>& w = y_[count_];
+    int open = 0, edges = 0;
+    const auto remove = [&](int f) {
+      faces_[f].is_there = false;
+      stack_[open++] = f;
+    };
+    int removed = 0;
+    remove(first);
+    while (open > 0) {
+      const int f = stack_[--open];
+      removed_[removed++] = f;
+      for (int k = 0; k < 3; ++k) {
+        const int beside = faces_[f].beside[k], g = beside / 4;
+        if (!faces_[g].is_there) continue;
+        const double height = faces_[g].n.dot(w);
+        if (height > faces_[g].d - in_plane * size_ && height > 0) {
+          remove(g);
+        } else {
+          edges_[edges++] = {faces_[f].corner[k], faces_[f].corner[(k + 1) % 3], beside};
+        }
+      }
+    }
+    // Edges of the hole may have been removed since.
+    int kept = 0;
+    for (int e = 0; e < edges; ++e)
+      if (faces_[edges_[e].beside / 4].is_there) edges_[kept++] = edges_[e];
+    for (int i = 0; i < removed; ++i) free_[free_count_++] = removed_[i];
+    return kept >= 3 && close(kept);
+  }
+
+  /// Fills the hole with a fan over its edges. The edges must be one loop, or loops that share no
+  /// vertex.
+  bool close(int edges) {
+    for (int e = 0; e < edges; ++e) from_[edges_[e].from] = -1;
+    for (int e = 0; e < edges; ++e) {
+      const Edge& edge = edges_[e];
+      if (from_[edge.from] >= 0) return false;
+      const int f = add_face(edge.from, edge.to, count_);
+      if (f < 0) return false;
+      from_[edge.from] = f;
+      faces_[f].beside[0] = edge.beside;
+      faces_[edge.beside / 4].beside[edge.beside % 4] = 4 * f;
+    }
+    for (int e = 0; e < edges; ++e) {
+      const int f = from_[edges_[e].from], next = from_[edges_[e].to];
+      if (next < 0 || !faces_[next].is_there || faces_[next].corner[0] != edges_[e].to)
+        return false;
+      faces_[f].beside[1] = 4 * next + 2;
+      faces_[next].beside[2] = 4 * f + 1;
+    }
+    return true;
+  }
+
+  /// The plane that is as good as the best one, and the point of the surface nearest to the origin.
+  /// Where faces lie in one plane, any of them may hold that.
+  bool finish(double height, const Vec3<double>& axis) {
+    found_.status = CoreStatus::overlapping;
+    found_.lower = height;
+    found_.axis = axis;
+    const Vec3<double> foot = found_.upper * axis;
+    const double way = deeper_by(pair_), all_but_leaning = way * (1 - leaning) - height;
+    found_.has_one_direction = true;
+    double best = std::numeric_limits<double>::infinity();
+    for (int f = 0; f < face_count_; ++f) {
+      const Face& face = faces_[f];
+      if (!face.is_there) continue;
+      // Distance of the face once B has moved in along the axis.
+      if (!(face.d - way * face.n.dot(axis) >= all_but_leaning)) found_.has_one_direction = false;
+      if (!(face.d <= -height + gap_ + in_plane * size_)) continue;
+      const Vec3<double> corners[3] = {y_[face.corner[0]] - foot, y_[face.corner[1]] - foot,
+                                       y_[face.corner[2]] - foot};
+      const SimplexPoint closest = closest_of_simplex(corners, 3, false);
+      if (!(closest.squared < best)) continue;
+      best = closest.squared;
+      found_.c = closest.v + foot;
+      found_.a.setZero();
+      for (int k = 0; k < 3; ++k) found_.a += closest.weight[k] * a_[face.corner[k]];
+    }
+    return true;
+  }
+
+  const CorePair& pair_;
+  double size_, gap_;
+  CoreDistance found_;
+  int count_ = 0, face_count_ = 0, free_count_ = 0, heaped_ = 0;
+  Vec3<double> y_[most_points + 1], a_[most_points + 1];
+  Face faces_[most_faces];
+  int free_[most_faces], stack_[most_faces], removed_[most_faces], from_[most_points + 1];
+  Edge edges_[3 * most_faces];
+  Heaped heap_[most_heaped];
+};
+
+}  // namespace minkray

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Cores that end in disks (cylinders, cones and their like): over a flat end the support point
+// jumps from one side of the rim to the other, and neither GJK nor Newton's method converges. There
+// the answer is known in closed form.
+#pragma once
+
+#include "core/pair/core_query.h"
+
+namespace minkray {
+namespace detail {
+
+/// A flat end's axis, where its support point jumps from one side of the rim to the other: the
+/// result if the other's nearest point lies over the disk.
+template <CoreKind Other, CoreKind A, CoreKind B>
+bool flat_end(CoreQuery<A, B>& query, const ShapeCore& disks, const ShapeCore& other,
+              const Mat3<double>& to_other, const Vec3<double>& d, bool is_of_a) {
+  const CorePair& pair = query.pair;
+  constexpr double flat = 0.3;  // squared slopes above this do not end on a flat end
+  if (!(d.x() * d.x() + d.y() * d.y() < flat * d.z() * d.z())) return false;
+  const double sign = d.z() < 0 ? -1 : 1;
+  const double rim = sign > 0 ? disks.size.y() : disks.size.x(), half = disks.size.z();
+  // The other's nearest point p, in the frame of the disks.
+  const Vec3<double> towards(0, 0, -sign);
+  ++query.result.supports;
+  const CoreSupport nearest = support_of_core<Other>(other, to_other * towards);
+  const Vec3<double> p = is_of_a ? Vec3<double>(pair.x + pair.turn * nearest.point)
+                                 : pair.to_b(nearest.point - pair.x);
+  const double across = p.x() * p.x() + p.y() * p.y();
+  if (!(across <= rim * rim)) return false;
+  const double gap = sign * p.z() - half;
+  const Vec3<double> on_end(p.x(), p.y(), sign * half);
+  if (gap > 0) {
+    const Vec3<double> n(0, 0, sign);
+    query.result.lower = gap;
+    query.result.axis = is_of_a ? n : Vec3<double>(pair.turn * -n);
+    if (is_of_a) return query.end_at(CoreStatus::separated, on_end, p - on_end);
+    return query.end_at(CoreStatus::separated, nearest.point, pair.turn * Vec3<double>(on_end - p));
+  }
+  const double here =
+      half > 0 ? disks.size.x() + (disks.size.y() - disks.size.x()) * (p.z() + half) / (2 * half)
+               : rim;
+  if (!(std::abs(p.z()) <= half) || !(across <= here * here)) return false;
+  return query.end_at(CoreStatus::overlapping, is_of_a ? p : nearest.point, Vec3<double>::Zero());
+}
+
+}  // namespace detail
+
+/// Tries the flat ends of both cores, as the direction d from A to B meets them. Returns true if
+/// that gave a result.
+template <CoreKind A, CoreKind B>
+bool try_flat_ends(CoreQuery<A, B>& query, const Vec3<double>& d) {
+  const CorePair& pair = query.pair;
+  if constexpr (A == CoreKind::disks || A == CoreKind::other)
+    if (pair.a.kind == CoreKind::disks &&
+        detail::flat_end<B>(query, pair.a, pair.b, pair.turn.transpose(), d, true))
+      return true;
+  if constexpr (B == CoreKind::disks || B == CoreKind::other)
+    if (pair.b.kind == CoreKind::disks &&
+        detail::flat_end<A>(query, pair.b, pair.a, pair.turn, pair.to_b(-d), false))
+      return true;
+  return false;
+}
+
+}  // namespace minkray

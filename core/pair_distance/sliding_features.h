@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: MIT
+// The distance of two curved cores to second order. Each point that GJK has lies on a feature of
+// the surface that slides when the direction d turns. With S the weighted sum of the features'
+// derivatives, the closest point of the sliding features is, to second order, that of points in the
+// metric H = I + S |d| / gap, by GJK's own simplex code. With S = 0 this is GJK, with one feature
+// it is Newton's method.
+#pragma once
+
+#include <algorithm>
+
+#include "core/pair/core_query.h"
+#include "core/pair/simplex_point.h"
+
+namespace minkray {
+
+template <CoreKind A, CoreKind B>
+class SlidingFeatures {
+ public:
+  explicit SlidingFeatures(CoreQuery<A, B>& query) : query_(query) {}
+
+  /// Adds a point that GJK has, by the features that it lies on: points of the same ones are one.
+  void add(int feature_a, int feature_b, double weight) {
+    for (int i = 0; i < count_; ++i)
+      if (feature_a_[i] == feature_a && feature_b_[i] == feature_b) {
+        weight_[i] += weight;
+        return;
+      }
+    append(feature_a, feature_b, weight);
+  }
+
+  /// Searches from the direction d; its first step is damped by so much, in sizes: mixed faces and
+  /// rims need it. Returns whether it came to an answer.
+  bool run(const Vec3<double>& d, double damping);
+
+  /// The direction around d in which the gap of cores that overlap is the largest: one of those in
+  /// which their depth may be seen, to about 1e-7. Nothing is proven but the gaps on the way.
+  /// Returns whether it was found.
+  bool settle(const Vec3<double>& d) {
+    is_direction_asked_ = true;
+    run(d, first_damping);
+    return is_settled_;
+  }
+  const Vec3<double>& direction() const { return direction_; }
+
+  /// Finds the same direction to rounding, by Newton's method from one that is off by less than
+  /// `turn`: that of a peak on one feature, on the crease of two, or on a corner of more. Returns
+  /// whether it was found.
+  bool sharpen(const Vec3<double>& d, double turn);
+  /// The points that sharpen() has ended with: one of A, and from it to one of B.
+  const Vec3<double>& sharp_a() const { return sharp_a_; }
+  const Vec3<double>& sharp_c() const { return sharp_c_; }
+
+  /// Calls f(point) with points of C around the one that settle() has found: those of each feature
+  /// in three directions turned by so much.
+  template <class F>
+  void around(double turn, const F& f) const {
+    const Vec3<double> e0 = direction_.unitOrthogonal(), e1 = direction_.cross(e0);
+    constexpr double cosine[3] = {1, -0.5, -0.5},
+                     sine[3] = {0, 0.8660254037844386, -0.8660254037844386};
+    for (int i = 0; i < count_; ++i)
+      for (int k = 0; k < 3; ++k)
+        f(on_features(i, direction_ + (turn * cosine[k]) * e0 + (turn * sine[k]) * e1));
+  }
+
+  static constexpr double first_damping = 0.1;
+
+  /// The features that carry the closest point.
+  void remember(PairMemory& memory) const {
+    memory.count = count_;
+    std::copy(feature_a_, feature_a_ + count_, memory.feature_a);
+    std::copy(feature_b_, feature_b_ + count_, memory.feature_b);
+  }
+
+ private:
+  static constexpr int most_turns = 12, most_turns_settling = 24;
+
+  /// H = I + scale S = L L^T.
+  struct Metric {
+    double l10, l20, l21, i0, i1, i2;
+
+    Metric(const Symmetric& S, double scale) {
+      const double l00 = std::sqrt(1 + scale * S.xx);
+      i0 = 1 / l00;
+      l10 = scale * S.xy * i0;
+      l20 = scale * S.xz * i0;
+      i1 = 1 / std::sqrt(1 + scale * S.yy - l10 * l10);
+      l21 = (scale * S.yz - l20 * l10) * i1;
+      i2 = 1 / std::sqrt(1 + scale * S.zz - l20 * l20 - l21 * l21);
+    }
+    /// L^-1 p.
+    Vec3<double> into(const Vec3<double>& p) const {
+      const double x = p.x() * i0, y = (p.y() - l10 * x) * i1;
+      return {x, y, (p.z() - l20 * x - l21 * y) * i2};
+    }
+    /// L^-T v: the direction in space of a closest point in the metric.
+    Vec3<double> out_of(const Vec3<double>& v) const {
+      const double z = v.z() * i2, y = (v.y() - l21 * z) * i1;
+      return {(v.x() - l10 * y - l20 * z) * i0, y, z};
+    }
+  };
+
+  void append(int feature_a, int feature_b, double weight) {
+    feature_a_[count_] = feature_a;
+    feature_b_[count_] = feature_b;
+    weight_[count_++] = weight;
+  }
+
+  /// Keeps the features that carry the closest point.
+  void keep(const SimplexPoint& closest) {
+    int kept = 0;
+    for (int i = 0; i < std::min(count_, 4); ++i) {
+      if ((closest.kept >> i & 1u) == 0) continue;
+      feature_a_[kept] = feature_a_[i];
+      feature_b_[kept] = feature_b_[i];
+      weight_[kept++] = closest.weight[i];
+    }
+    count_ = kept;
+  }
+
+  DifferencePoint on_features(int i, const Vec3<double>& d) const {
+    const Vec3<double> a = point_of_feature<A>(query_.pair.a, feature_a_[i], d),
+                       b = point_of_feature<B>(query_.pair.b, feature_b_[i], query_.pair.to_b(-d));
+    return {query_.pair.x + query_.pair.turn * b - a, a, feature_a_[i], feature_b_[i]};
+  }
+
+  bool is_inside(const Vec3<double>& n, double depth, const Vec3<double>* z, Vec3<double>& common);
+
+  /// Newton's method on the gap, of one feature that slides: S - depth is what it bends by. False
+  /// where that is no peak.
+  static bool climb(const Symmetric& S, double depth, const Vec3<double>& n, const Vec3<double>& v,
+                    Vec3<double>& next) {
+    const Vec3<double> e0 = n.unitOrthogonal(), e1 = n.cross(e0), s0 = S * e0, s1 = S * e1;
+    const double b00 = e0.dot(s0) - depth, b01 = e0.dot(s1), b11 = e1.dot(s1) - depth,
+                 determinant = b00 * b11 - b01 * b01, trace = b00 + b11;
+    constexpr double flattest = 1e-3;
+    if (!(trace > 0 && determinant > flattest * trace * trace)) return false;
+    const double q0 = e0.dot(v), q1 = e1.dot(v);
+    const double m0 = (b11 * q0 - b01 * q1) / determinant, m1 = (b00 * q1 - b01 * q0) / determinant;
+    constexpr double furthest = 0.5;  // radians: beyond it the bend is another one
+    if (!(m0 * m0 + m1 * m1 < furthest * furthest)) return false;
+    next = (n + m0 * e0 + m1 * e1).normalized();
+    return true;
+  }
+
+  /// A step of sharpen(): the weights of the features, and the direction that is next. False where
+  /// that is no peak. `least` is the feature of the least weight.
+  bool step_to_peak(const Vec3<double>& n, Vec3<double>& next, int& least);
+
+  CoreQuery<A, B>& query_;
+  bool is_direction_asked_ = false, is_settled_ = false;
+  Vec3<double> direction_ = Vec3<double>::Zero(), sharp_a_ = Vec3<double>::Zero(),
+               sharp_c_ = Vec3<double>::Zero();
+  int count_ = 0;
+  int feature_a_[4], feature_b_[4];
+  double weight_[4];
+};
+
+/// True if the origin is within a tetrahedron of C's middle and three points around n, in whose
+/// direction C ends at -depth; `common` is the point of its weights.
+template <CoreKind A, CoreKind B>
+bool SlidingFeatures<A, B>::is_inside(const Vec3<double>& n, double depth, const Vec3<double>* z,
+                                      Vec3<double>& common) {
+  const Vec3<double> e0 = n.unitOrthogonal(), e1 = n.cross(e0);
+  const auto holds = [&](const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& r) {
+    const Vec3<double> corners[4] = {p, q, r, query_.pair.x};
+    const SimplexPoint closest = closest_of_simplex(corners, 4, false);
+    // Rounding may give a wrong result: its quality is how near to the origin the weights come.
+    common = Vec3<double>::Zero();
+    for (int i = 0; i < 4; ++i) common += closest.weight[i] * corners[i];
+    return closest.is_inside();
+  };
+  const auto on_feature = [&](int i, const Vec3<double>& d) { return on_features(i, d).c; };
+  const double turned = std::sqrt(depth / query_.size) + 1e-9;
+  for (const double angle : {0.5 * turned, 5 * turned}) {
+    const double c = -0.5 * angle, s = 0.8660254037844386 * angle;
+    const Vec3<double> p = query_.nearest(n + angle * e0).c,
+                       q = query_.nearest(n + c * e0 + s * e1).c,
+                       r = query_.nearest(n + c * e0 - s * e1).c;
+    if (holds(p, q, r)) return true;
+    if (count_ == 2) {
+      const Vec3<double> across = n.cross(z[1] - z[0]);
+      const double length = across.norm();
+      if (!(length > 0)) continue;
+      const Vec3<double> t = across * (angle / length);
+      const Vec3<double> f[4] = {on_feature(0, n - t), on_feature(1, n - t), on_feature(0, n + t),
+                                 on_feature(1, n + t)};
+      if (holds(f[0], f[1], f[2]) || holds(f[0], f[1], f[3]) || holds(f[0], f[2], f[3]) ||
+          holds(f[1], f[2], f[3]))
+        return true;
+    }
+    if (count_ >= 3 && holds(z[0], z[1], z[2])) return true;
+    if (count_ == 4 &&
+        (holds(z[0], z[1], z[3]) || holds(z[0], z[2], z[3]) || holds(z[1], z[2], z[3])))
+      return true;
+  }
+  return false;
+}
+
+template <CoreKind A, CoreKind B>
+bool SlidingFeatures<A, B>::run(const Vec3<double>& d, double damping) {
+  Vec3<double> nd = d;
+  const int most = is_direction_asked_ ? most_turns_settling : most_turns;
+  for (int step = 0; step < most; ++step, damping = step < 7 ? damping * 0.1 : 0) {
+    const DifferencePoint w = query_.nearest(nd);
+    const double length = nd.norm(), gap = nd.dot(w.c) / length;
+    const Vec3<double> n = nd / length;
+    query_.result.raise_lower(gap, n);
+    if (query_.result.lower > query_.search.apart) {
+      query_.result.status = CoreStatus::separated;
+      return true;
+    }
+    Vec3<double> z[5], v = Vec3<double>::Zero(), on_a = Vec3<double>::Zero();
+    Symmetric S;
+    bool is_known = false;
+    const Vec3<double> of_b = query_.pair.to_b(-nd);
+    for (int i = 0; i < count_; ++i) {
+      const Vec3<double> a = point_of_feature<A>(query_.pair.a, feature_a_[i], nd),
+                         b = point_of_feature<B>(query_.pair.b, feature_b_[i], of_b);
+      z[i] = query_.pair.x + query_.pair.turn * b - a;
+      v += weight_[i] * z[i];
+      on_a += weight_[i] * a;
+      is_known |= feature_a_[i] == w.feature_a && feature_b_[i] == w.feature_b;
+      add_curvature<A>(S, weight_[i], query_.pair.a, Mat3<double>::Identity(), feature_a_[i], nd,
+                       a);
+      add_curvature<B>(S, weight_[i], query_.pair.b, query_.pair.turn, feature_b_[i], of_b, b);
+    }
+    if (v.norm() - query_.result.lower <= query_.gap)
+      return query_.end_at(CoreStatus::separated, on_a, v);
+    // If the gap is small or negative, C is moved until there is one.
+    const double least = query_.size * std::max(1e-4, damping);
+    const double shift = gap > least ? 0 : least - gap;
+    if (shift > 0 && gap <= 0 && is_known) {
+      constexpr double stationary = 1e-7;
+      const Vec3<double> aside = v - v.dot(n) * n;
+      if (aside.squaredNorm() < stationary * stationary * query_.size * query_.size) {
+        direction_ = n;
+        is_settled_ = true;
+        if (is_direction_asked_) return false;
+        Vec3<double> common;
+        if (!is_inside(n, -gap, z, common)) return false;
+        return query_.end_at(CoreStatus::overlapping, on_a, common);
+      }
+    }
+    if (is_direction_asked_ && gap <= 0 && is_known && count_ == 1) {
+      Symmetric of_unit;
+      of_unit.add_all(length, S);
+      if (climb(of_unit, -gap, n, v, nd)) continue;
+    }
+    const double scale = length / (gap > least ? gap : least);
+    if (!is_known) {
+      if (count_ == 4) return false;
+      z[count_] = w.c;
+      append(w.feature_a, w.feature_b, 0);
+    }
+    const Metric metric(S, scale);
+    Vec3<double> mapped[4];
+    for (int i = 0; i < count_; ++i) mapped[i] = metric.into(z[i] + shift * n);
+    const SimplexPoint closest = closest_of_simplex(mapped, count_, false);
+    if (closest.kept == 0 || closest.is_inside()) return false;
+    nd = metric.out_of(closest.v);
+    if (!(nd.squaredNorm() > 0)) return false;
+    keep(closest);
+  }
+  return false;
+}
+
+template <CoreKind A, CoreKind B>
+bool SlidingFeatures<A, B>::step_to_peak(const Vec3<double>& n, Vec3<double>& next, int& least) {
+  DifferencePoint on[4];
+  Vec3<double> aside[4];
+  for (int i = 0; i < count_; ++i) {
+    on[i] = on_features(i, n);
+    aside[i] = on[i].c - n.dot(on[i].c) * n;
+  }
+  next = n;
+  weight_[0] = 1;
+  if (count_ == 2) {
+    const Vec3<double> across = aside[0] - aside[1];
+    const double squared = across.squaredNorm();
+    if (!(squared > 0)) return false;
+    weight_[0] = -aside[1].dot(across) / squared;
+    weight_[1] = 1 - weight_[0];
+    next -= (n.dot(on[0].c - on[1].c) / squared) * across;
+  } else if (count_ > 2) {
+    const Vec3<double> u = on[1].c - on[0].c, v = on[2].c - on[0].c, plane = u.cross(v);
+    const double squared = plane.squaredNorm();
+    constexpr double thinnest = 1e-3;  // of a right angle
+    if (!(squared > thinnest * thinnest * u.squaredNorm() * v.squaredNorm())) return false;
+    next = plane / std::sqrt(squared);
+    if (next.dot(n) < 0) next = -next;
+    // The plane's point nearest to the origin, by areas.
+    const Vec3<double> to_foot = next.dot(on[0].c) * next - on[0].c;
+    weight_[1] = to_foot.cross(v).dot(plane) / squared;
+    weight_[2] = u.cross(to_foot).dot(plane) / squared;
+    weight_[0] = 1 - weight_[1] - weight_[2];
+    for (int i = 3; i < count_; ++i) weight_[i] = 0;
+  }
+  Symmetric S;
+  sharp_a_.setZero();
+  sharp_c_.setZero();
+  least = 0;
+  for (int i = 0; i < count_; ++i) {
+    if (weight_[i] < weight_[least]) least = i;
+    const Vec3<double> of_b = query_.pair.to_b(-n),
+                       b = point_of_feature<B>(query_.pair.b, feature_b_[i], of_b);
+    sharp_a_ += weight_[i] * on[i].a;
+    sharp_c_ += weight_[i] * on[i].c;
+    add_curvature<A>(S, weight_[i], query_.pair.a, Mat3<double>::Identity(), feature_a_[i], n,
+                     on[i].a);
+    add_curvature<B>(S, weight_[i], query_.pair.b, query_.pair.turn, feature_b_[i], of_b, b);
+  }
+  const double depth = -n.dot(sharp_c_);
+  if (count_ == 1) return climb(S, depth, n, sharp_c_, next);
+  if (count_ == 2) {
+    const Vec3<double> along = n.cross(on[0].c - on[1].c).normalized();
+    const double bend = along.dot(S * along), peak = bend - depth;
+    constexpr double flattest = 1e-3;
+    if (!(peak > flattest * (bend + depth))) return false;
+    next += (along.dot(sharp_c_) / peak) * along;
+  }
+  next.normalize();
+  return true;
+}
+
+template <CoreKind A, CoreKind B>
+bool SlidingFeatures<A, B>::sharpen(const Vec3<double>& d, double turn) {
+  count_ = 0;
+  const auto take = [&](const Vec3<double>& along) {
+    const DifferencePoint w = query_.nearest(along);
+    for (int i = 0; i < count_; ++i)
+      if (feature_a_[i] == w.feature_a && feature_b_[i] == w.feature_b) return true;
+    if (count_ == 4) return false;
+    append(w.feature_a, w.feature_b, 0);
+    return true;
+  };
+  const Vec3<double> e0 = d.unitOrthogonal(), e1 = d.cross(e0);
+  if (!take(d)) return false;
+  for (const double angle : {0.0, 1.0472, 2.0944, 3.1416, 4.1888, 5.236})
+    if (!take(d + turn * (std::cos(angle) * e0 + std::sin(angle) * e1))) return false;
+  constexpr int most_steps = 12;
+  constexpr double still = 1e-12;    // radians
+  constexpr double outside = -1e-9;  // of a weight
+  direction_ = d;
+  for (int step = 0; step < most_steps; ++step) {
+    Vec3<double> next;
+    int least = 0;
+    if (!step_to_peak(direction_, next, least)) return false;
+    // Corners of a face with more than three carry a point by any three of them.
+    if (count_ > 1 && count_ < 4 && weight_[least] < outside) {
+      --count_;
+      feature_a_[least] = feature_a_[count_];
+      feature_b_[least] = feature_b_[count_];
+      direction_ = d;
+      continue;
+    }
+    const bool is_still = (next - direction_).norm() <= still;
+    direction_ = next;
+    if (is_still) return true;
+  }
+  return false;
+}
+
+}  // namespace minkray

@@ -1,0 +1,398 @@
+// SPDX-License-Identifier: MIT
+#include "core/pair_motion/impact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/pair/closed_answer.h"
+#include "core/pair_motion/swept_time.h"
+
+namespace minkray {
+namespace {
+
+/// A body's own rounding, relative to its size and its pivot's way.
+constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
+
+/// Bodies that part are checked again after at least this part of the requested time, or of that
+/// in which they turn by a radian.
+constexpr double first_step = 1e-30;
+
+/// Number of distances at single times that may run out of support points before the impact is
+/// exhausted: those of infinite bodies all do, and each takes as long as a thousand others.
+constexpr int most_exhausted = 10;
+
+/// A body that may turn, seen from its pivot; one that does not turn is seen from its middle.
+class Turning {
+ public:
+  Turning(const ContactShape& shape, const RigidMotion& motion)
+      : shape_(shape), motion_(motion), speed_(length_of(motion.angular_velocity)) {
+    if (speed_ > 0) axis_ = motion.angular_velocity / speed_;
+    if (speed_ > 0 && shape.is_moved()) arm_ = motion.pose.linear * shape.middle();
+    reach_ = shape.ball_radius() + length_of(arm_);
+  }
+
+  double speed() const { return speed_; }  ///< radians per unit of time
+  /// No point is further from the axis.
+  double reach() const { return reach_; }
+  double arm_length() const { return reach_ - shape_.ball_radius(); }
+
+  PlacedMiddle seen_from() const {
+    if (speed_ > 0) return {motion_.pose.translation, shape_.core().rounding};
+    return placed_middle(shape_, motion_.pose);
+  }
+
+  /// Pose of the body at a time: its linear part, and its middle relative to seen_from().
+  Affine<double> at(double time) const {
+    if (!(speed_ > 0)) return {motion_.pose.linear, Vec3<double>::Zero()};
+    const Mat3<double> turn = Eigen::AngleAxis<double>(time * speed_, axis_).toRotationMatrix();
+    return {turn * motion_.pose.linear, turn * arm_};
+  }
+
+  /// The support function in a direction of the world.
+  double support(const Affine<double>& there, const Vec3<double>& n) const {
+    const Mat3<double> turn = turn_in_world(shape_, there.linear);
+    const Vec3<double> d = turn.transpose() * n;
+    const CoreSupport support = support_of_core<CoreKind::other>(shape_.core(), d);
+    return n.dot(there.translation) + d.dot(support.point) + shape_.core().radius;
+  }
+
+  Vec3<double> velocity_of(const Vec3<double>& from_seen) const {
+    return motion_.angular_velocity.cross(from_seen);
+  }
+
+ private:
+  const ContactShape& shape_;
+  const RigidMotion& motion_;
+  double speed_;
+  Vec3<double> axis_ = Vec3<double>::Zero(), arm_ = Vec3<double>::Zero();
+  double reach_;
+};
+
+class Advance {
+ public:
+  Advance(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
+          const RigidMotion& motion_b, double t_max, PairMemory* memory,
+          const ImpactOptions& options)
+      : a_(a),
+        b_(b),
+        of_a_(motion_a),
+        of_b_(motion_b),
+        turning_a_(a, motion_a),
+        turning_b_(b, motion_b),
+        velocity_(motion_b.velocity - motion_a.velocity),
+        t_max_(t_max),
+        memory_(memory),
+        options_(options) {
+    size_ = a.ball_radius() + b.ball_radius();
+    touching_ = options.touching * size_;
+  }
+
+  /// They do not meet: a plane with this normal is between them until the end.
+  Impact run_missed(const Vec3<double>& normal) {
+    bring_near();
+    return miss(t_max_, normal);
+  }
+
+  Impact run() {
+    bring_near();
+    // Every step begins with what the one before it has found.
+    PairMemory of_steps;
+    if (!memory_) memory_ = &of_steps;
+    SignedDistance now = at(0);
+    if (gave_up(now)) return give_up(0, now);
+    // The contact at the start counts unless the two part.
+    if (now.upper < 0 || (now.value <= touching_ && approach(now, 0) <= parting()))
+      return finish(ImpactStatus::inside, 0, 0, now);
+    double t = 0;
+    if (now.value <= touching_) {
+      t = leave(now);
+      if (t < 0) return finish(ImpactStatus::hit, 0, -t, now);
+      if (!may_go_on()) return give_up(0, now);
+      now = at(t);
+      if (gave_up(now)) return give_up(0, now);
+    }
+    double t_end = t_max_;
+    while (may_go_on() && !gave_up(now)) {
+      if (now.value <= touching_) return meet(t, t_end, now);
+      const double next = proven_until(t, t_end, now);
+      if (next >= t_end) return miss(t_end, now.normal);
+      if (!(next > t)) break;  // the time has no more digits
+      t = next;
+      now = at(t);
+    }
+    return give_up(t, now);
+  }
+
+ private:
+  bool may_go_on() const {
+    return result_.steps < options_.max_steps && exhausted_ < most_exhausted;
+  }
+
+  /// True if a distance looks like a contact only since its search ended without an upper bound,
+  /// or with one too far away to be a contact.
+  bool gave_up(const SignedDistance& now) const {
+    return now.is_unknown() || (now.value <= touching_ && now.upper > 2 * touching_);
+  }
+
+  /// After a time until which they do not meet.
+  Impact give_up(double t, const SignedDistance& now) {
+    return finish(ImpactStatus::undecided, t, std::numeric_limits<double>::infinity(), now);
+  }
+
+  /// All that follows is seen from A, so that no number is larger than the bodies' sizes, their
+  /// distance and their ways.
+  void bring_near() {
+    const PlacedMiddle of_a = turning_a_.seen_from(), of_b = turning_b_.seen_from();
+    start_ = {(of_b.at - of_a.at).rounded(), of_a.loss + of_b.loss};
+    constexpr double of_arms = 8 * std::numeric_limits<double>::epsilon();
+    start_.loss += of_arms * (turning_a_.arm_length() + turning_b_.arm_length());
+    speed_ = length_of(velocity_) + turning_a_.speed() * turning_a_.reach() +
+             turning_b_.speed() * turning_b_.reach();
+  }
+
+  /// Displacement of the bodies by the rounding of times and angles.
+  double loss_at(double t) const {
+    return start_.loss + 2 * std::numeric_limits<double>::epsilon() * t * speed_;
+  }
+
+  SignedDistance at(double t) {
+    SignedDistanceOptions how;
+    how.tolerance = std::min(1e-9, options_.touching);
+    const SignedDistance there = at(t, how);
+    exhausted_ += there.is_exhausted ? 1 : 0;
+    return there;
+  }
+
+  /// The upper bound is no more than 0 only if they overlap. GJK alone is tried first, and cases
+  /// that it leaves open are searched at some cost.
+  SignedDistance overlap_at(double t) {
+    SignedDistanceOptions how;
+    how.only_sign = true;
+    how.max_supports = 0;
+    const SignedDistance there = at(t, how);
+    if (there.upper <= 0 || !(there.upper <= touching_)) return there;
+    constexpr int some_supports = 2000;
+    how.max_supports = some_supports;
+    return at(t, how);
+  }
+
+  SignedDistance at(double t, const SignedDistanceOptions& how) {
+    ++result_.steps;
+    const Affine<double> at_a = turning_a_.at(t), at_b = turning_b_.at(t);
+    const Between between{start_.x + t * velocity_ + at_b.translation - at_a.translation,
+                          loss_at(t)};
+    return signed_distance(a_, at_a.linear, b_, at_b.linear, between, how, memory_);
+  }
+
+  /// The speed at which the nearest points part, negative if they approach.
+  double approach(const SignedDistance& now, double t) const {
+    const Vec3<double> arm_a = turning_a_.at(t).translation,
+                       arm_b = start_.x + t * velocity_ - arm_a;
+    return now.normal.dot(velocity_ + turning_b_.velocity_of(now.point_b - arm_b) -
+                          turning_a_.velocity_of(now.point_a + arm_a));
+  }
+  /// Slower is rest.
+  double parting() const { return options_.touching * speed_; }
+
+  /// After a contact at time 0 that parts, finds a time at which the bodies are apart, or minus a
+  /// time at which they overlap. Turning bodies may come back: the first check is when they may be
+  /// apart at the earliest, and the time is doubled from there.
+  double leave(const SignedDistance& now) {
+    const double turning = std::max(turning_a_.speed(), turning_b_.speed()), apart = 4 * touching_;
+    const double at_this_speed = apart / approach(now, 0);
+    const double first = turning > 0 ? apart / speed_ : at_this_speed;
+    // Points are of no size, and nothing is near to nothing: the way begins somewhere.
+    double t = std::max(first, first_step * std::min(t_max_, 1 / turning));
+    while (t < t_max_ && may_go_on()) {
+      const SignedDistance then = at(t);
+      // Before they should be apart, as much as touches is the contact at the start.
+      if (then.upper < (t < at_this_speed ? -touching_ : 0)) return -t;
+      if (then.lower > 2 * touching_) return t;
+      t *= 2;
+    }
+    return t_max_;
+  }
+
+  /// A fixed plane's gap at a time, and the two support functions along its normal.
+  struct Gap {
+    double gap, h_a, h_b;
+  };
+  Gap gap(double t, const Vec3<double>& n) const {
+    const double h_a = turning_a_.support(turning_a_.at(t), n),
+                 h_b = turning_b_.support(turning_b_.at(t), -n);
+    return {n.dot(start_.x + t * velocity_) - h_a - h_b, h_a, h_b};
+  }
+
+  /// No contact from t to the time returned, which is later unless digits are lacking.
+  double proven_until(double t, double t_end, const SignedDistance& now) {
+    constexpr double largest_turn = 1;  // radians in one step
+    const Vec3<double> n = now.normal;
+    const Gap first = gap(t, n);
+    double step = t_end - t;
+    if (speed_ > 0) step = std::min(step, 16 * (now.value + size_) / speed_);
+    const double turning = std::max(turning_a_.speed(), turning_b_.speed());
+    if (turning > 0) step = std::min(step, largest_turn / turning);
+    const bool is_last = step == t_end - t;
+    const double of_sizes = rounding * (size_ + start_.x.norm() + t * speed_);
+    const auto bulge = [](double angle, double at_first, double at_last) {
+      return (1 / std::cos(angle / 2) - 1) * std::max({at_first, at_last, 0.0});
+    };
+    for (int i = 0; i < 60; ++i) {
+      const Gap last = gap(t + step, n);
+      const double allowed = of_sizes + loss_at(t + step);
+      const double worst = last.gap - bulge(turning_a_.speed() * step, first.h_a, last.h_a) -
+                           bulge(turning_b_.speed() * step, first.h_b, last.h_b) - allowed;
+      if (worst > 0 && worst >= last.gap - first.gap) return i == 0 && is_last ? t_end : t + step;
+      // The line through the two gaps is 0 there, or a little before.
+      const double down = first.gap - worst;
+      step *= std::clamp(down > 0 ? 0.9999 * (first.gap - allowed) / down : 0.5, 0.0, 0.9);
+      if (!(t + step > t)) break;
+    }
+    return t;
+  }
+
+  Impact miss(double t_end, const Vec3<double>& normal) {
+    if (options_.points_of_misses) {
+      const SignedDistance there = at(t_end);
+      if (!there.is_unknown()) return finish(ImpactStatus::miss, t_end, t_end, there);
+      // Their distance then exceeds the range of numbers.
+      result_.distance = std::numeric_limits<double>::infinity();
+    }
+    result_.normal = normal;
+    result_.status = ImpactStatus::miss;
+    result_.t_lo = result_.t_hi = t_end;
+    return result_;
+  }
+
+  /// The bodies touch at t, to rounding; finds when they do for sure.
+  Impact meet(double t, double t_end, const SignedDistance& now) {
+    double t_hi = t;
+    if (now.upper > 0) {
+      // Moves into each other, if they continue; if not, coming so near is a contact.
+      const double speed = -approach(now, t);
+      constexpr double deep = 0.5;
+      double later = std::max((2 * now.upper + deep * touching_) / std::max(speed, 1e-6 * speed_),
+                              t * rounding);
+      for (int i = 0; i < 40 && t + later <= t_end; ++i, later *= 2) {
+        const SignedDistance then = overlap_at(t + later);
+        if (then.upper <= 0) {
+          t_hi = t + later;
+          break;
+        }
+        if (then.value > 4 * touching_) break;
+      }
+    }
+    return finish(ImpactStatus::hit, t, t_hi, now);
+  }
+
+  /// `now` is the distance at t_lo.
+  Impact finish(ImpactStatus status, double t_lo, double t_hi, const SignedDistance& now) {
+    result_.status = status;
+    result_.t_lo = t_lo;
+    result_.t_hi = t_hi;
+    result_.normal = now.normal;
+    result_.distance = std::numeric_limits<double>::infinity();
+    if (now.is_unknown()) return result_;
+    const Vec3<double> middle = middle_in_world(a_, of_a_.at(t_lo));
+    result_.point_a = middle + now.point_a;
+    result_.point_b = middle + now.point_b;
+    result_.distance = now.value;
+    return result_;
+  }
+
+  const ContactShape &a_, &b_;
+  const RigidMotion &of_a_, &of_b_;
+  Turning turning_a_, turning_b_;
+  Vec3<double> velocity_;  ///< of B, as A sees it
+  Between start_;          ///< from where A is seen from to where B is, at time 0
+  double t_max_;
+  PairMemory* memory_;
+  const ImpactOptions& options_;
+  double size_ = 0, speed_ = 0, touching_ = 0;
+  int exhausted_ = 0;  ///< of the distances at single times
+  Impact result_;
+};
+
+/// Without turns the impact is where a ray meets the difference of the two. Open for contacts at
+/// the start and for grazing ones; a miss has a normal only.
+SweptStatus swept_impact(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
+                         const RigidMotion& motion_b, double t_max, const ImpactOptions& options,
+                         PairMemory* memory, Impact& result) {
+  // The solvers are compiled for one order of two kinds.
+  const bool is_turned = a.core().kind > b.core().kind;
+  const ContactShape &first = is_turned ? b : a, &second = is_turned ? a : b;
+  const RigidMotion &of_first = is_turned ? motion_b : motion_a,
+                    &of_second = is_turned ? motion_a : motion_b;
+  const double touching = options.touching * (a.ball_radius() + b.ball_radius());
+  const Vec3<double> velocity = of_second.velocity - of_first.velocity;
+  const auto finish = [&](const SweptTime& swept, const auto& to_world) {
+    if (swept.status == SweptStatus::open) return SweptStatus::open;
+    const Vec3<double> axis = to_world(swept.axis);
+    result.normal = unit<double>(is_turned ? Vec3<double>(-axis) : axis);
+    if (swept.status == SweptStatus::miss) return SweptStatus::miss;
+    if (swept.t_lo * length_of(velocity) <= touching || swept.t_lo > t_max)
+      return SweptStatus::open;
+    result.status = ImpactStatus::hit;
+    result.t_lo = swept.t_lo;
+    result.t_hi = std::max(swept.t_lo, swept.t_hi);
+    // The point is one of both at t_hi: at t_lo the second is so much further back.
+    const Vec3<double> back = (result.t_hi - result.t_lo) * velocity;
+    result.point_a = result.point_b =
+        middle_in_world(first, of_first.pose) + to_world(swept.a) + result.t_lo * of_first.velocity;
+    (is_turned ? result.point_a : result.point_b) -= back;
+    result.distance = is_turned ? result.normal.dot(back) : -result.normal.dot(back);
+    return SweptStatus::hit;
+  };
+  const Between between = between_middles(first, of_first.pose, second, of_second.pose);
+  if (second.core().kind == CoreKind::point) {  // balls, which have no frame
+    const Mat3<double> no_turn = Mat3<double>::Identity();
+    const CorePair pair{first.core(), second.core(), no_turn, between.x, between.loss};
+    return finish(swept_time(pair, velocity, t_max, touching, memory),
+                  [](const Vec3<double>& v) -> const Vec3<double>& { return v; });
+  }
+  const Mat3<double> frame = turn_in_world(first, of_first.pose);
+  const CorePair pair =
+      pair_of(first, frame, second, turn_in_world(second, of_second.pose), between);
+  return finish(swept_time(pair, frame.transpose() * velocity, t_max, touching, memory),
+                [&](const Vec3<double>& v) -> Vec3<double> { return frame * v; });
+}
+
+Impact find_impact(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
+                   const RigidMotion& motion_b, double t_max, PairMemory* memory,
+                   const ImpactOptions& options) {
+  Impact swept;
+  const bool is_turning = motion_a.angular_velocity != Vec3<double>::Zero() ||
+                          motion_b.angular_velocity != Vec3<double>::Zero();
+  const SweptStatus status =
+      is_turning ? SweptStatus::open
+                 : swept_impact(a, motion_a, b, motion_b, t_max, options, memory, swept);
+  if (status == SweptStatus::hit) return swept;
+  Advance advance(a, motion_a, b, motion_b, t_max, memory, options);
+  return status == SweptStatus::miss ? advance.run_missed(swept.normal) : advance.run();
+}
+
+}  // namespace
+
+Affine<double> RigidMotion::at(double time) const {
+  Affine<double> moved = pose;
+  moved.translation += time * velocity;
+  const double speed = length_of(angular_velocity);
+  if (speed > 0)
+    moved.linear =
+        Eigen::AngleAxis<double>(time * speed, angular_velocity / speed).toRotationMatrix() *
+        pose.linear;
+  return moved;
+}
+
+Impact first_impact(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
+                    const RigidMotion& motion_b, double t_max, const ImpactOptions& options) {
+  return find_impact(a, motion_a, b, motion_b, t_max, nullptr, options);
+}
+
+Impact first_impact(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
+                    const RigidMotion& motion_b, double t_max, PairMemory& memory,
+                    const ImpactOptions& options) {
+  return find_impact(a, motion_a, b, motion_b, t_max, &memory, options);
+}
+
+}  // namespace minkray

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// The least signed distance of two bodies while they move along a known path, between proven
+// bounds.
+//
+// At a time s a plane with normal n keeps the two apart by the gap g(n, s), which no choice of n
+// makes larger than their signed distance. For a fixed n it is the least, over pairs of points p of
+// A and q of B, of n.(q - p), and each of those bends by no more than q - p accelerates. So on
+// [s0, s1] the distance is at least
+//
+//   min(g(n, s0), g(n, s1)) - acceleration * (s1 - s0)^2 / 8   for any n, and
+//   (d(s0) + d(s1) - speed * (s1 - s0)) / 2                    as it changes no faster than speed.
+//
+// The interval with the least bound is halved until that is near the least distance seen.
+#pragma once
+
+#include <limits>
+#include <string_view>
+
+#include "core/pair_distance/signed_distance.h"
+
+namespace minkray {
+
+/// Two bodies whose places are known for every s of [0, 1].
+class MovingPair {
+ public:
+  virtual ~MovingPair() = default;
+
+  /// The signed distance at s; beyond `at_most` a lower bound is enough.
+  virtual SignedDistance at(double s, double at_most) const = 0;
+  /// The gap along n at s, or a little less for rounding; `n` is in the frame in which the bounds
+  /// below hold, and so is `at(s).normal`.
+  virtual double gap(const Vec3<double>& n, double s) const = 0;
+
+  double size = 0;          ///< of both together: what tolerances are relative to
+  double speed = 0;         ///< no point of B moves faster relative to one of A
+  double acceleration = 0;  ///< nor accelerates by more
+  double least =
+      -std::numeric_limits<double>::infinity();  ///< pairs without depth have no less than 0
+};
+
+struct LeastDistanceOptions {
+  /// The search ends when the bounds are as near to each other as this, or as this part of the
+  /// least distance.
+  double gap = 0;
+  double relative_gap = 0;
+  /// The search also ends when the distance is known to be no less than this minus the gap.
+  double enough = std::numeric_limits<double>::infinity();
+  int max_distances = 20000;
+};
+
+struct LeastDistance {
+  double lower = -std::numeric_limits<double>::infinity();  ///< over all of [0, 1]
+  double upper = std::numeric_limits<double>::infinity();   ///< of `there`
+  double s = 0;  ///< parameter of the least distance found
+  SignedDistance there;
+  int distances = 0;  ///< number of queries
+  bool is_settled = false;
+};
+
+LeastDistance least_distance(const MovingPair& pair, const LeastDistanceOptions& options);
+
+/// The gap of two shapes along a unit vector n of the world, or a little less for rounding.
+double gap_along(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
+                 const Affine<double>& pose_b, const Vec3<double>& n);
+double gap_along(const ContactShape& a, const Mat3<double>& linear_a, const ContactShape& b,
+                 const Mat3<double>& linear_b, const Between& between, const Vec3<double>& n);
+
+}  // namespace minkray

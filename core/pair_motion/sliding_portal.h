@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// The time of impact of curved cores to second order. Among all planes with normal n, n.u = -1 (u
+// along the motion), that keep C on one side, the last one met gives the time: a concave function
+// of n, the least of one for each feature of the surfaces (sliding_features.h). Around the current
+// n, each is t_i + q_i.m - m S m / 2, q_i its shadow and S the features' curvature; the m that is
+// best for the least of them comes from the dual, a quadratic program of at most four weights,
+// which is solved by going through all subsets (sequential quadratic programming).
+#pragma once
+
+#include "core/pair_motion/swept_query.h"
+
+namespace minkray {
+
+template <CoreKind A, CoreKind B>
+class SlidingPortal {
+ public:
+  explicit SlidingPortal(SweptQuery<A, B>& query) : query_(query) {}
+
+  /// Adds a point of the portal, by the features that it lies on: points of the same ones are one.
+  void add(int feature_a, int feature_b, double weight) {
+    for (int i = 0; i < count_; ++i)
+      if (feature_a_[i] == feature_a && feature_b_[i] == feature_b) {
+        weight_[i] += weight;
+        return;
+      }
+    append(feature_a, feature_b, weight);
+  }
+
+  /// Searches from the normal n, which faces against the motion. Returns whether that decided.
+  bool run(const Vec3<double>& n) {
+    Vec3<double> nd = n / -n.dot(query_.along);
+    double damping = 0.1;  // of the first step, in sizes: mixed faces and rims need it
+    for (int step = 0; step < most_turns; ++step, damping = step < 7 ? damping * 0.1 : 0) {
+      const SweptPoint w = query_.support(nd);
+      if (query_.judge(nd, w)) return true;
+      if (query_.has_met()) return query_.end_hit();
+      if (is_along_an_end(nd)) return false;
+      const Vec3<double> of_b = query_.pair.to_b(-nd);
+      Symmetric S;
+      SweptPoint z[4];
+      double p = 0, q = 0;
+      bool is_known = false;
+      for (int i = 0; i < count_; ++i) {
+        const CorePair& pair = query_.pair;
+        const int of_a = feature_a_[i], of_features_b = feature_b_[i];
+        const Vec3<double> a = point_of_feature<A>(pair.a, of_a, nd),
+                           b = point_of_feature<B>(pair.b, of_features_b, of_b);
+        z[i] = query_.grown(pair.x + pair.turn * b - a, a, nd, of_a, of_features_b);
+        p += weight_[i] * z[i].p;
+        q += weight_[i] * z[i].q;
+        is_known |= of_a == w.feature_a && of_features_b == w.feature_b;
+        add_curvature<A>(S, weight_[i], pair.a, Mat3<double>::Identity(), of_a, nd, a);
+        add_curvature<B>(S, weight_[i], pair.b, pair.turn, of_features_b, of_b, b);
+      }
+      add_radius(S, nd);
+      constexpr double stationary = 3e-8;
+      if (is_known && p * p + q * q <= stationary * stationary * query_.size * query_.size)
+        return surround(nd, z);
+      if (!is_known) {
+        if (count_ == 4) return false;
+        z[count_] = w;
+        append(w.feature_a, w.feature_b, 0);
+      }
+      if (!advance(S, z, damping, nd)) return false;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr int most_turns = 12;
+
+  void append(int feature_a, int feature_b, double weight) {
+    feature_a_[count_] = feature_a;
+    feature_b_[count_] = feature_b;
+    weight_[count_++] = weight;
+  }
+
+  void add_radius(Symmetric& S, const Vec3<double>& nd) const {
+    if (!(query_.radius > 0)) return;
+    const double length = nd.norm(), k = query_.radius / length;
+    S.xx += k;
+    S.yy += k;
+    S.zz += k;
+    S.add(-k / (length * length), nd);
+  }
+
+  /// Over a flat end the support point jumps: only the portal continues there.
+  bool is_along_an_end(const Vec3<double>& nd) const {
+    constexpr double flat = 1e-6;
+    const auto is_along = [](const ShapeCore& core, const Vec3<double>& d) {
+      return core.kind == CoreKind::disks && d.x() * d.x() + d.y() * d.y() < flat * d.squaredNorm();
+    };
+    return is_along(query_.pair.a, nd) || is_along(query_.pair.b, query_.pair.to_b(nd));
+  }
+
+  /// The next normal, and the weights that belong to it.
+  bool advance(const Symmetric& S, const SweptPoint* z, double damping, Vec3<double>& nd) {
+    const Vec3<double> s0 = S * query_.e0, s1 = S * query_.e1;
+    const double least = query_.size * (damping + 1e-9);
+    const double b00 = query_.e0.dot(s0) + least, b01 = query_.e0.dot(s1),
+                 b11 = query_.e1.dot(s1) + least, determinant = b00 * b11 - b01 * b01;
+    const double i00 = b11 / determinant, i11 = b00 / determinant, i01 = -b01 / determinant;
+    double t[4], Q[4][4];
+    for (int i = 0; i < count_; ++i) t[i] = nd.dot(z[i].y);
+    for (int i = 0; i < count_; ++i)
+      for (int j = 0; j < count_; ++j)
+        Q[i][j] = z[i].p * (i00 * z[j].p + i01 * z[j].q) + z[i].q * (i01 * z[j].p + i11 * z[j].q);
+    double best[4];
+    if (!least_of_subsets(t, Q, best)) return false;
+    double p = 0, q = 0;
+    for (int i = 0; i < count_; ++i) {
+      p += best[i] * z[i].p;
+      q += best[i] * z[i].q;
+    }
+    nd += (i00 * p + i01 * q) * query_.e0 + (i01 * p + i11 * q) * query_.e1;
+    int kept = 0;
+    for (int i = 0; i < count_; ++i) {
+      if (!(best[i] > 0)) continue;
+      feature_a_[kept] = feature_a_[i];
+      feature_b_[kept] = feature_b_[i];
+      weight_[kept++] = best[i];
+    }
+    count_ = kept;
+    return kept > 0;
+  }
+
+  /// The weights w, none negative, their sum 1, with the least t.w + w Q w / 2: it is of rank 2, so
+  /// three of them do.
+  bool least_of_subsets(const double* t, const double (*Q)[4], double* best) const {
+    double least = std::numeric_limits<double>::infinity();
+    const auto take = [&](double value, int i, double u, int j, double v, int k, double w) {
+      if (!(value < least)) return;
+      least = value;
+      best[0] = best[1] = best[2] = best[3] = 0;
+      best[i] += u;
+      best[j] += v;
+      best[k] += w;
+    };
+    for (int a = 0; a < count_; ++a) {
+      const double at_a = t[a] + 0.5 * Q[a][a];
+      take(at_a, a, 1, a, 0, a, 0);
+      for (int b = a + 1; b < count_; ++b) {
+        const double bb = Q[a][a] - 2 * Q[a][b] + Q[b][b], to_b = t[b] - t[a] + Q[a][b] - Q[a][a];
+        const double x = -to_b / bb;
+        if (x > 0 && x < 1) take(at_a + to_b * x + 0.5 * bb * x * x, a, 1 - x, b, x, a, 0);
+        for (int c = b + 1; c < count_; ++c) {
+          const double cc = Q[a][a] - 2 * Q[a][c] + Q[c][c],
+                       bc = Q[a][a] - Q[a][b] - Q[a][c] + Q[b][c],
+                       to_c = t[c] - t[a] + Q[a][c] - Q[a][a], area = bb * cc - bc * bc;
+          const double y = (bc * to_c - cc * to_b) / area, z = (bc * to_b - bb * to_c) / area;
+          if (!(y > 0 && z > 0 && y + z < 1)) continue;
+          take(at_a + to_b * y + to_c * z + 0.5 * (bb * y * y + 2 * bc * y * z + cc * z * z), a,
+               1 - y - z, b, y, c, z);
+        }
+      }
+    }
+    return least < std::numeric_limits<double>::infinity();
+  }
+
+  /// The best normal is found: three points near it around the origin's shadow prove the time from
+  /// above.
+  bool surround(const Vec3<double>& nd, const SweptPoint* z) {
+    const double length = nd.norm();
+    double turn = 3e-6 * length;
+    if (count_ == 2) {
+      const double ep = z[1].p - z[0].p, eq = z[1].q - z[0].q, edge = std::sqrt(ep * ep + eq * eq);
+      if (edge > 0) {
+        const Vec3<double> across = (turn / edge) * (-eq * query_.e0 + ep * query_.e1);
+        const SweptPoint f[4] = {query_.on_features(feature_a_[0], feature_b_[0], nd - across),
+                                 query_.on_features(feature_a_[1], feature_b_[1], nd - across),
+                                 query_.on_features(feature_a_[0], feature_b_[0], nd + across),
+                                 query_.on_features(feature_a_[1], feature_b_[1], nd + across)};
+        pierce_any(f, 4);
+      }
+    } else if (count_ > 2) {
+      pierce_any(z, count_);
+    }
+    if (query_.has_met()) return query_.end_hit();
+    for (int tries = 0; tries < 3; ++tries, turn *= 30) {
+      constexpr double cosine[3] = {1, -0.5, -0.5},
+                       sine[3] = {0, 0.8660254037844386, -0.8660254037844386};
+      SweptPoint f[3];
+      for (int i = 0; i < 3; ++i)
+        f[i] = query_.support(nd + (turn * cosine[i]) * query_.e0 + (turn * sine[i]) * query_.e1);
+      if (query_.pierce(f[0], f[1], f[2])) break;
+    }
+    return query_.has_met() && query_.end_hit();
+  }
+
+  void pierce_any(const SweptPoint* f, int count) {
+    for (int i = 0; i < count; ++i)
+      for (int j = i + 1; j < count; ++j)
+        for (int k = j + 1; k < count; ++k) query_.pierce(f[i], f[j], f[k]);
+  }
+
+  SweptQuery<A, B>& query_;
+  int count_ = 0;
+  int feature_a_[4], feature_b_[4];
+  double weight_[4];
+};
+
+}  // namespace minkray

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#include "core/pair_motion/swept.h"
+
+#include <numbers>
+
+namespace minkray {
+
+Shape<double> swept(const Shape<double>& shape, const Affine<double>& from,
+                    const Affine<double>& to, double acceleration) {
+  // The roundings of the poses' own numbers.
+  constexpr double padding = 1 + 16 * std::numeric_limits<double>::epsilon();
+  const HullOf<double> ends{{Nested<double>(Shape<double>(Transform<double>{shape, from})),
+                             Nested<double>(Shape<double>(Transform<double>{shape, to}))}};
+  const double bulge = padding * acceleration / 8;
+  if (!(bulge > 0)) return ends;
+  return Rounded<double>{bulge, Nested<double>(Shape<double>(ends))};
+}
+
+Shape<double> swept(const Shape<double>& shape, const Affine<double>& from,
+                    const Affine<double>& to) {
+  const Mat3<double> turn = to.linear * from.linear.transpose();
+  const Eigen::AngleAxis<double> by(turn);
+  const double angle = by.angle();
+  if (!(angle > 0)) return swept(shape, from, to, 0);
+  const Vec3<double> axis = from.linear.transpose() * by.axis();
+  return swept(shape, from, to, distance_from_axis(shape, axis) * angle * angle);
+}
+
+double distance_from_axis(const Shape<double>& shape, const Vec3<double>& axis) {
+  const Vec3<double> u = axis.unitOrthogonal(), v = axis.cross(u);
+  constexpr int directions = 24;
+  double most = 0;
+  for (int k = 0; k < directions; ++k) {
+    const double angle = 2 * std::numbers::pi * k / directions;
+    const Vec3<double> n = std::cos(angle) * u + std::sin(angle) * v;
+    most = std::max(most, n.dot(shape.support(n)));
+  }
+  // The polygon of those half-planes has its corners so much further out.
+  return most / std::cos(std::numbers::pi / directions);
+}
+
+}  // namespace minkray

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include "core/pair_motion/swept_closed.h"
+
+#include "core/pair/closed_pairs.h"
+
+namespace minkray {
+namespace {
+
+/// Signed distance at a time, in the frame of the search. A plane between the two at any time keeps
+/// them apart until it meets them, so that steps may be bold: `guess` proposes the time of contact
+/// of the features that are nearest at a time.
+template <class DistanceAt, class Guess>
+class ClosedSweep {
+ public:
+  ClosedSweep(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near,
+              const DistanceAt& distance_at, const Guess& guess)
+      : velocity_(velocity), t_max_(t_max), near_(near), distance_at_(distance_at), guess_(guess) {
+    radius_of_a_ = pair.a.radius;
+    radii_ = pair.a.radius + pair.b.radius;
+    rounding_ = pair.rounding();
+    speed_ = velocity.norm();
+  }
+
+  SweptTime run() {
+    if (!(speed_ > 0)) return result_;
+    const double least = std::max(near_as_asked * near_, rounding_);
+    double t = 0;
+    int guesses = 0;
+    for (int step = 0; step < most_steps; ++step) {
+      const bool is_guess = t > result_.t_lo;
+      const CoreDistance found = distance_at_(t);
+      const double gap = found.lower - radii_ - rounding_, approach = -found.axis.dot(velocity_);
+      // Nothing is known of what begins in contact.
+      if (step == 0 && !(gap > near_)) return result_;
+      if (!(approach > 0)) {
+        if (is_guess) {
+          t = result_.t_lo;
+          guesses = most_guesses;
+          continue;
+        }
+        if (gap > near_) end(SweptStatus::miss, found.axis);
+        return result_;
+      }
+      if (gap - (t_max_ - t) * approach > near_) {
+        end(SweptStatus::miss, found.axis);
+        return result_;
+      }
+      const double next = t + gap / approach;
+      if (next > result_.t_lo) {
+        result_.t_lo = next;
+        result_.axis = found.axis;
+      }
+      if (!(gap > least) && (!is_guess || gap >= -least)) return touch(std::max(t, next), approach);
+      const double at = t;
+      t = result_.t_lo;
+      if (gap > 0 && guesses < most_guesses) {
+        ++guesses;
+        const double later = guess_(found, at, radii_);
+        if (later > t && later <= t_max_) t = later;
+      }
+    }
+    return result_;
+  }
+
+ private:
+  static constexpr int most_steps = 40, most_guesses = 4;
+  /// Nearer than this part of what is near enough the last step has found where they touch.
+  static constexpr double near_as_asked = 1e-4;
+
+  void end(SweptStatus status, const Vec3<double>& axis) {
+    result_.status = status;
+    result_.axis = unit<double>(axis);
+  }
+
+  /// At t they are next to nothing apart: a little later they overlap.
+  SweptTime touch(double t, double approach) {
+    const double later = t + (2 * rounding_ + near_as_asked * near_) / approach;
+    const CoreDistance there = distance_at_(later);
+    if (!(there.upper - radii_ <= 0)) return result_;
+    result_.t_hi = later;
+    if (!((later - result_.t_lo) * speed_ <= near_)) return result_;
+    result_.a = there.a + radius_of_a_ * there.axis;
+    end(SweptStatus::hit, result_.axis);
+    return result_;
+  }
+
+  const Vec3<double>& velocity_;
+  double t_max_, near_;
+  const DistanceAt& distance_at_;
+  const Guess& guess_;
+  double radius_of_a_, radii_, rounding_, speed_;
+  SweptTime result_;
+};
+
+template <class DistanceAt, class Guess>
+SweptTime sweep(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near,
+                const DistanceAt& distance_at, const Guess& guess) {
+  return ClosedSweep<DistanceAt, Guess>(pair, velocity, t_max, near, distance_at, guess).run();
+}
+
+/// When the nearest features of two segments, p of A and q of B, come as near as `radii`: an end or
+/// the line that a nearest point is within. Not a number if they never do, or move along a plane.
+double contact_of_features(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& x,
+                           const Vec3<double>& velocity, const CoreDistance& found, double at,
+                           double radii) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double within = 1 - 1e-9;  // an end, if it is no nearer to the middle
+  const double pp = p.squaredNorm(), qq = q.squaredNorm();
+  const Vec3<double> on_b = found.c + found.a - x;
+  const bool is_within_a = found.a.squaredNorm() < within * pp,
+             is_within_b = on_b.squaredNorm() < within * qq;
+  if (is_within_a && is_within_b) return nan;
+  Vec3<double> c = found.c, v = velocity;
+  const auto leave_out = [&](const Vec3<double>& along, double squared) {
+    c -= (c.dot(along) / squared) * along;
+    v -= (v.dot(along) / squared) * along;
+  };
+  if (is_within_a) leave_out(p, pp);
+  if (is_within_b) leave_out(q, qq);
+  const double vv = v.squaredNorm(), cv = -c.dot(v), beyond = c.squaredNorm() - radii * radii;
+  return at + beyond / (cv + std::sqrt(cv * cv - vv * beyond));
+}
+
+}  // namespace
+
+bool has_swept_closed(const CorePair& pair) {
+  return is_line(pair.b) || (pair.a.kind == CoreKind::point && is_solid(pair.b));
+}
+
+SweptTime swept_closed(const CorePair& pair, const Vec3<double>& velocity, double t_max,
+                       double near) {
+  if (is_line(pair.b)) {
+    const Vec3<double> p(0, 0, pair.a.size.z()), q = pair.turn.col(2) * pair.b.size.z();
+    return sweep(
+        pair, velocity, t_max, near,
+        [&](double t) { return between_segments(p, q, Vec3<double>(pair.x + t * velocity)); },
+        [&](const CoreDistance& found, double at, double radii) {
+          return contact_of_features(p, q, pair.x + at * velocity, velocity, found, at, radii);
+        });
+  }
+  // As the solid sees it, in whose frame the point moves the other way.
+  const Vec3<double> x = pair.to_b(pair.x), v = pair.to_b(velocity);
+  const auto distance_at = [&](double t) {
+    CoreDistance at = between_solid_and_point(pair.b, Vec3<double>(-x - t * v));
+    at.axis = -at.axis;
+    at.c = -at.c;
+    at.a.setZero();
+    return at;
+  };
+  const auto no_guess = [](const CoreDistance&, double, double) {
+    return std::numeric_limits<double>::quiet_NaN();
+  };
+  SweptTime found = sweep(pair, v, t_max, near, distance_at, no_guess);
+  found.axis = pair.turn * found.axis;
+  found.a = pair.turn * found.a;
+  return found;
+}
+
+}  // namespace minkray

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+// First contact of two cores where one moves without turning: a ray meets C. By portals (G.
+// Snethen, "XenoCollide", in Game Programming Gems 7, 2008): GJK in the shadow of C finds three
+// points around the origin, or proves a miss; their triangle is moved outwards by support points.
+// The triangle and the support plane bound the time. Exact for polytopes; on curved surfaces
+// sliding_portal.h takes over after a few turns.
+#pragma once
+
+#include "core/pair_motion/sliding_portal.h"
+
+namespace minkray {
+
+template <CoreKind A, CoreKind B>
+class SweptPortal {
+ public:
+  /// B moves by t * velocity, as A sees it, for 0 <= t <= t_max. Planes further apart than `near`
+  /// all the time make a miss, times nearer to each other than it takes to move by so much a hit.
+  SweptPortal(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near)
+      : query_(pair, velocity, t_max, near) {
+    can_slide_ = pair.a.kind != CoreKind::other && pair.b.kind != CoreKind::other &&
+                 (slides(pair.a.kind) || slides(pair.b.kind) || query_.radius > 0);
+  }
+
+  /// `memory` may be null; else its plane is tried first.
+  SweptTime run(const PairMemory* memory) {
+    if (!(query_.speed > 0) || query_.passes_by()) return query_.result;
+    if (memory && memory->has_axis()) {
+      if (query_.judge(memory->axis, query_.support(memory->axis))) return query_.result;
+    }
+    portal_[0] = query_.support(-query_.along);
+    if (query_.judge(-query_.along, portal_[0]) || !surround() || refine()) return query_.result;
+    return query_.result;
+  }
+
+ private:
+  static constexpr int most_turns = 200;
+  /// Turns of the portal before features slide.
+  static constexpr int turns_plain = 3;
+
+  /// Three points whose shadows are around the origin. False: it is a miss, or not known.
+  bool surround() {
+    double dp = portal_[0].p, dq = portal_[0].q;
+    int count = 1;
+    for (int turn = 0; turn < most_turns; ++turn) {
+      Vec3<double> d = dp * query_.e0 + dq * query_.e1;
+      if (!(d.squaredNorm() > 0)) d = query_.e0;
+      portal_[count] = query_.support(d);
+      const SweptPoint& w = portal_[count];
+      const double reach = w.p * dp + w.q * dq, length = std::sqrt(dp * dp + dq * dq);
+      if (reach > (query_.near + query_.rounding) * length) {
+        query_.end(SweptStatus::miss, d);
+        return false;
+      }
+      if (reach > 0) return false;  // too near to decide
+      if (++count == 3) {
+        const double c01 = side(0, 1), c12 = side(1, 2), c20 = side(2, 0), area = c01 + c12 + c20;
+        const double sign = area < 0 ? -1 : 1;
+        if (sign * c12 < 0) {
+          portal_[0] = portal_[2];
+        } else if (sign * c20 < 0) {
+          portal_[1] = portal_[2];
+        } else {
+          return sign * c01 >= 0 && std::abs(area) > 0;
+        }
+        count = 2;
+      }
+      // At right angles to the edge, away from the origin.
+      const double ep = portal_[1].p - portal_[0].p, eq = portal_[1].q - portal_[0].q;
+      dp = -eq;
+      dq = ep;
+      if (dp * portal_[0].p + dq * portal_[0].q < 0) {
+        dp = -dp;
+        dq = -dq;
+      }
+      constexpr double on_edge = 1e-15;
+      const double edge = std::sqrt(ep * ep + eq * eq);
+      if (!(edge > 0)) return false;
+      if (turn > 0 && dp * portal_[0].p + dq * portal_[0].q <= on_edge * query_.size * edge)
+        return false;
+    }
+    return false;
+  }
+
+  /// Twice the area of the origin and the shadows of two points, with a sign.
+  double side(int i, int j) const { return cross(portal_[i], portal_[j]); }
+
+  /// Moves the portal out until both bounds meet. Always true.
+  bool refine() {
+    for (int turn = 0; turn < most_turns; ++turn) {
+      const double area = side(0, 1) + side(1, 2) + side(2, 0);
+      query_.pierce(portal_[0], portal_[1], portal_[2]);
+      if (query_.has_met()) return query_.end_hit();
+      Vec3<double> n = (portal_[1].y - portal_[0].y).cross(portal_[2].y - portal_[0].y);
+      if (n.dot(query_.along) > 0) n = -n;
+      if (can_slide_ && turn >= turns_plain && n.dot(query_.along) < 0) {
+        can_slide_ = false;
+        SlidingPortal<A, B> sliding(query_);
+        const double weights[3] = {side(1, 2) / area, side(2, 0) / area, side(0, 1) / area};
+        for (int i = 0; i < 3; ++i)
+          sliding.add(portal_[i].feature_a, portal_[i].feature_b, weights[i]);
+        if (sliding.run(n)) return true;
+      }
+      if (!(n.squaredNorm() > 0)) return true;
+      const SweptPoint w = query_.support(n);
+      if (query_.judge(n, w)) return true;
+      if (query_.has_met()) return query_.end_hit();
+      // The third of the triangle, as seen from the new point, that holds the origin.
+      const double sign = area < 0 ? -1 : 1, at0 = sign * cross(portal_[0], w),
+                   at1 = sign * cross(portal_[1], w), at2 = sign * cross(portal_[2], w);
+      if (at0 <= 0 && at1 >= 0)
+        portal_[2] = w;
+      else if (at1 <= 0 && at2 >= 0)
+        portal_[0] = w;
+      else if (at2 <= 0 && at0 >= 0)
+        portal_[1] = w;
+      else
+        return true;
+    }
+    return true;
+  }
+
+  SweptQuery<A, B> query_;
+  bool can_slide_;
+  SweptPoint portal_[3];
+};
+
+}  // namespace minkray

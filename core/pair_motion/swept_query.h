@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// A search for a time of impact: two cores, B moving without turning, and the bounds proven so
+// far. The radii are included in the points: C is grown by both.
+#pragma once
+
+#include <algorithm>
+
+#include "core/pair/core_pair.h"
+
+namespace minkray {
+
+enum class SweptStatus : unsigned char {
+  open,  ///< none of the others is proven; the bounds hold
+  hit,
+  miss,
+};
+
+/// All in A's frame.
+struct SweptTime {
+  SweptStatus status = SweptStatus::open;
+  double t_lo = -std::numeric_limits<double>::infinity();  ///< no contact since long before
+  double t_hi = std::numeric_limits<double>::infinity();   ///< the cores touch or overlap
+  Vec3<double> axis = Vec3<double>::Zero();  ///< across the plane between them, of unit length
+  Vec3<double> a = Vec3<double>::Zero();     ///< a point of A, which at t_hi is one of B
+  int supports = 0;
+};
+
+/// A point y = b - a of C, and its shadow along the motion: p e0 + q e1, h along it.
+struct SweptPoint {
+  Vec3<double> y, a;
+  double p, q, h;
+  int feature_a, feature_b;
+};
+
+inline double cross(const SweptPoint& a, const SweptPoint& b) {
+  return a.p * b.q - a.q * b.p;
+}
+
+template <CoreKind A, CoreKind B>
+struct SweptQuery {
+  const CorePair& pair;
+  Vec3<double> velocity;
+  double t_max, near;
+  double radius = pair.a.radius + pair.b.radius;
+  double size = pair.size() + radius;
+  double speed = velocity.norm();
+  Vec3<double> along = velocity / speed;
+  Vec3<double> e0 = along.unitOrthogonal(), e1 = along.cross(e0);
+  double rounding = pair.rounding();
+  SweptTime result = {};
+
+  SweptQuery(const CorePair& of, const Vec3<double>& v, double most, double nearness)
+      : pair(of), velocity(v), t_max(most), near(nearness) {}
+
+  SweptPoint in_shadow(const Vec3<double>& y, const Vec3<double>& a, int of_a, int of_b) const {
+    return {y, a, e0.dot(y), e1.dot(y), along.dot(y), of_a, of_b};
+  }
+  SweptPoint support(const Vec3<double>& d) {
+    ++result.supports;
+    const DifferencePoint w = nearest_along<A, B>(pair, d);
+    return grown(w.c, w.a, d, w.feature_a, w.feature_b);
+  }
+  SweptPoint grown(const Vec3<double>& c, const Vec3<double>& a, const Vec3<double>& d, int of_a,
+                   int of_b) const {
+    if (!(radius > 0)) return in_shadow(c, a, of_a, of_b);
+    const Vec3<double> n = d / d.norm();
+    return in_shadow(c - radius * n, a + pair.a.radius * n, of_a, of_b);
+  }
+  /// The points of features, which need not be the furthest.
+  SweptPoint on_features(int of_a, int of_b, const Vec3<double>& d) const {
+    const Vec3<double> a = point_of_feature<A>(pair.a, of_a, d),
+                       b = point_of_feature<B>(pair.b, of_b, pair.to_b(-d));
+    return grown(pair.x + pair.turn * b - a, a, d, of_a, of_b);
+  }
+
+  void end(SweptStatus status, const Vec3<double>& axis) {
+    result.status = status;
+    result.axis = unit<double>(axis);
+  }
+  /// Always true.
+  bool end_hit() {
+    result.status = SweptStatus::hit;
+    return true;
+  }
+
+  /// The balls around both miss each other, whatever rounding made of how far aside they are.
+  bool passes_by() {
+    const double towards = pair.x.dot(along);
+    const Vec3<double> aside = pair.x - towards * along;
+    const double distance = towards >= 0 ? pair.x.norm() : aside.norm();
+    if (!(distance > size + near + rounding)) return false;
+    end(SweptStatus::miss, towards >= 0 ? pair.x : aside);
+    return true;
+  }
+
+  /// Applies what the plane with normal n through w proves. Returns true if that is a miss.
+  bool judge(const Vec3<double>& n, const SweptPoint& w) {
+    const double length = n.norm(), gap = n.dot(w.y) - rounding * length,
+                 approach = -n.dot(velocity);
+    if (!(approach > 0)) {
+      if (!(gap > near * length)) return false;
+      end(SweptStatus::miss, n);
+      return true;
+    }
+    if (gap - t_max * approach > near * length) {
+      end(SweptStatus::miss, n);
+      return true;
+    }
+    const double t = gap / approach;
+    if (t > result.t_lo) {
+      result.t_lo = t;
+      result.axis = n / length;
+    }
+    return false;
+  }
+
+  /// The time at which the origin is on the triangle: an upper bound if it is within. Returns
+  /// whether it is.
+  bool pierce(const SweptPoint& r, const SweptPoint& s, const SweptPoint& t) {
+    const double at_r = cross(s, t), at_s = cross(t, r), at_t = cross(r, s),
+                 area = at_r + at_s + at_t, sign = area < 0 ? -1 : 1;
+    // Rounding moves the sides of thinner slivers too far.
+    constexpr double sliver = 1e-10;
+    const double reach = std::max({std::abs(r.p) + std::abs(r.q), std::abs(s.p) + std::abs(s.q),
+                                   std::abs(t.p) + std::abs(t.q)});
+    if (!(sign * at_r >= 0 && sign * at_s >= 0 && sign * at_t >= 0 &&
+          std::abs(area) > sliver * size * reach))
+      return false;
+    const double of_r = at_r / area, of_s = at_s / area, of_t = at_t / area;
+    // The weights of a thin triangle give a point slightly off the origin: it is corrected along
+    // the triangle's plane. Rounding moves the points across, which counts in proportion to the
+    // steepness.
+    const double p1 = s.p - r.p, q1 = s.q - r.q, h1 = s.h - r.h, p2 = t.p - r.p, q2 = t.q - r.q,
+                 h2 = t.h - r.h, across = p1 * q2 - q1 * p2;
+    const double rise_p = (h1 * q2 - q1 * h2) / across, rise_q = (p1 * h2 - h1 * p2) / across;
+    const double p = of_r * r.p + of_s * s.p + of_t * t.p, q = of_r * r.q + of_s * s.q + of_t * t.q,
+                 h = of_r * r.h + of_s * s.h + of_t * t.h - rise_p * p - rise_q * q,
+                 allowed = rounding * (1 + std::abs(rise_p) + std::abs(rise_q));
+    const double time = (allowed - h) / speed;
+    if (time < result.t_hi) {
+      result.t_hi = time;
+      result.a = of_r * r.a + of_s * s.a + of_t * t.a;
+    }
+    return true;
+  }
+
+  bool has_met() const { return (result.t_hi - result.t_lo) * speed <= near; }
+};
+
+}  // namespace minkray

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// Closed forms in float lanes, for kernels that screen. All has internal linkage: see
+// core/math/wide.h.
+#pragma once
+
+#include "core/exact/box.h"
+#include "core/exact/capsule.h"
+#include "core/exact/cylinder.h"
+#include "core/exact/frustum.h"
+#include "core/exact/rounded_box.h"
+#include "core/exact/tapered_capsule.h"
+#include "core/math/wide.h"
+#include "core/query/tolerances.h"
+#include "core/screen/screen.h"
+
+#if defined(__AVX2__)
+namespace minkray {
+namespace {
+
+using W = Wide<float, screen_lanes, IsaAvx2>;
+
+inline __m128 four(const float* from) {
+  return _mm_loadu_ps(from);
+}
+
+/// Four numbers of each lane, read by four_of(lane), side by side.
+template <class FourOf>
+[[gnu::always_inline]] inline std::array<W, 4> side_by_side(const FourOf& four_of) {
+  const auto both = [&](std::size_t lane) {
+    return _mm256_set_m128(four_of(lane + 4), four_of(lane));
+  };
+  const __m256 a = both(0), b = both(1), c = both(2), d = both(3);
+  const __m256 ab_low = _mm256_unpacklo_ps(a, b), ab_high = _mm256_unpackhi_ps(a, b);
+  const __m256 cd_low = _mm256_unpacklo_ps(c, d), cd_high = _mm256_unpackhi_ps(c, d);
+  const auto w = [](const __m256& lanes) { return W(W::Lanes(lanes)); };
+  return {w(_mm256_shuffle_ps(ab_low, cd_low, 0x44)), w(_mm256_shuffle_ps(ab_low, cd_low, 0xEE)),
+          w(_mm256_shuffle_ps(ab_high, cd_high, 0x44)),
+          w(_mm256_shuffle_ps(ab_high, cd_high, 0xEE))};
+}
+
+/// Numbers of ScreenForm, lane by lane.
+struct FormInLanes {
+  std::array<W, 4> sizes;
+  W slope, sine, R, least, extent, up;
+  Vec3<W> scale, offset;
+  const std::vector<float>* planes = nullptr;  ///< of all lanes
+
+  /// One for all lanes.
+  explicit FormInLanes(const Screen& screen) : FormInLanes(screen.form) {
+    planes = screen.planes.get();
+  }
+  explicit FormInLanes(const ScreenForm& form)
+      : sizes{W(form.sizes[0]), W(form.sizes[1]), W(form.sizes[2]), W(form.sizes[3])},
+        slope(form.slope),
+        sine(form.sine),
+        R(form.R),
+        least(form.least),
+        extent(form.extent),
+        up(form.up),
+        scale(W(form.scale[0]), W(form.scale[1]), W(form.scale[2])),
+        offset(W(form.offset[0]), W(form.offset[1]), W(form.offset[2])) {}
+
+  /// One in each lane.
+  explicit FormInLanes(const ScreenForm* const (&forms)[screen_lanes]) {
+    const auto from = [&](std::size_t place) {
+      return side_by_side([&](std::size_t lane) {
+        return four(reinterpret_cast<const float*>(forms[lane]) + 4 * place);
+      });
+    };
+    sizes = from(0);
+    const auto shape = from(1), scales = from(2), offsets = from(3);
+    slope = shape[0];
+    sine = shape[1];
+    R = shape[2];
+    least = shape[3];
+    scale = {scales[0], scales[1], scales[2]};
+    extent = scales[3];
+    offset = {offsets[0], offsets[1], offsets[2]};
+    up = offsets[3];
+  }
+};
+static_assert(offsetof(ScreenForm, slope) == 16 && offsetof(ScreenForm, scale) == 32 &&
+              offsetof(ScreenForm, offset) == 48 && sizeof(ScreenForm) == 64);
+
+/// Lines in the lanes between all planes of one polytope: four numbers bound where they enter and
+/// leave. E holds what float loses of a plane: its normal, its offset and the sums are rounded by
+/// less than 2^-21 of what is near.
+[[gnu::always_inline]] inline exact::Entry<W> enter_planes_alike(const FormInLanes& form,
+                                                                 const exact::Line<W>& line,
+                                                                 const Mask<W>& open) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  W in_lo(-infinity), in_hi(-infinity), out_lo(infinity), out_hi(infinity);
+  const float* at = form.planes->data();
+  const float* const end = at + form.planes->size();
+  for (; at != end; at += 5) {
+    const W x(at[0]), y(at[1]), z(at[2]);
+    const W slope = x * line.d.x() + (y * line.d.y() + z * line.d.z());
+    const W room = W(at[3]) - (x * line.s.x() + (y * line.s.y() + z * line.s.z()));
+    const W inv = W(1) / max(abs(slope), W(exact::least_component<W>));
+    const W t = room * inv, e = line.E * inv, deep = (line.E + W(at[4])) * inv;
+    const Mask<W> enters = slope < W(0);
+    in_lo = max(in_lo, select(enters, -t - e, W(-infinity)));
+    in_hi = max(in_hi, select(enters, deep - t, W(-infinity)));
+    out_lo = min(out_lo, select(enters, W(infinity), t - deep));
+    out_hi = min(out_hi, select(enters, W(infinity), t + e));
+  }
+  exact::Entry<W> entry;
+  entry.miss = open & (in_lo > out_hi);
+  entry.hit = open & (in_hi <= out_lo);
+  entry.t = (in_lo + in_hi) * W(0.5f);
+  entry.e = (in_hi - in_lo) * W(0.5f);
+  return entry;
+}
+
+template <FormKind kind>
+[[gnu::always_inline]] inline exact::Entry<W> enter(const FormInLanes& form,
+                                                    const exact::Line<W>& line,
+                                                    const Mask<W>& open) {
+  const auto& a = form.sizes;
+  if constexpr (kind == FormKind::polytope) return enter_planes_alike(form, line, open);
+  if constexpr (kind == FormKind::ball) return exact::enter_ball(a[0], line, open);
+  if constexpr (kind == FormKind::box) return exact::enter_box(a, line, open);
+  if constexpr (kind == FormKind::rounded_box) return exact::enter_rounded_box(a, line, open);
+  if constexpr (kind == FormKind::capsule) return exact::enter_capsule(a[0], a[1], line, open);
+  if constexpr (kind == FormKind::cylinder) return exact::enter_cylinder(a[0], a[1], line, open);
+  if constexpr (kind == FormKind::tapered_capsule)
+    return exact::enter_tapered_capsule(a[0], a[1], a[2], form.slope, form.sine, a[3], form.R, line,
+                                        open);
+  if constexpr (kind == FormKind::frustum)
+    return exact::enter_frustum(form.slope, form.sine, a[2], a[3], form.R, line, open);
+}
+
+/// Not inlined.
+template <FormKind kind>
+[[gnu::noinline]] exact::Entry<W> enter_again(const FormInLanes& form, const exact::Line<W>& line,
+                                              const Mask<W>& open) {
+  return enter<kind>(form, line, open);
+}
+
+/// work.operator()<kind>().
+template <class Work>
+inline ScreenBits for_kind(FormKind kind, const Work& work) {
+  switch (kind) {
+    case FormKind::ball:
+      return work.template operator()<FormKind::ball>();
+    case FormKind::box:
+      return work.template operator()<FormKind::box>();
+    case FormKind::rounded_box:
+      return work.template operator()<FormKind::rounded_box>();
+    case FormKind::capsule:
+      return work.template operator()<FormKind::capsule>();
+    case FormKind::tapered_capsule:
+      return work.template operator()<FormKind::tapered_capsule>();
+    case FormKind::cylinder:
+      return work.template operator()<FormKind::cylinder>();
+    case FormKind::frustum:
+      return work.template operator()<FormKind::frustum>();
+    case FormKind::polytope:
+      return work.template operator()<FormKind::polytope>();
+    default:
+      return {0, 0};
+  }
+}
+
+}  // namespace
+}  // namespace minkray
+#endif

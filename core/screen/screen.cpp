@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "core/screen/screen.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/polytope/polytope.h"
+#include "core/query/tolerances.h"
+
+namespace minkray {
+namespace {
+
+/// True if all numbers that a form of this radius computes are within float's range.
+bool is_in_range(double R) {
+  return R > tolerance::screen_least_radius && R < tolerance::screen_largest_radius;
+}
+
+bool has_lanes(FormKind kind) {
+  switch (kind) {
+    case FormKind::ball:
+    case FormKind::box:
+    case FormKind::rounded_box:
+    case FormKind::capsule:
+    case FormKind::tapered_capsule:
+    case FormKind::cylinder:
+    case FormKind::frustum:
+      return true;
+    default:
+      return false;
+  }
+}
+
+/// The least radius of what is round.
+double least_round(const exact::Form& form) {
+  const auto& a = form.sizes;
+  switch (form.kind) {
+    case FormKind::ball:
+    case FormKind::capsule:
+    case FormKind::cylinder:
+      return a[0];
+    case FormKind::rounded_box:
+      return a[3];
+    case FormKind::tapered_capsule:
+      return std::min(a[0], a[1]);
+    default:
+      return form.R;
+  }
+}
+
+/// A box around the shape, as a form.
+exact::Form box_around(const ShapeDefinition<double>& definition) {
+  exact::Form form;
+  form.kind = FormKind::box;
+  const double R = definition.inner_ball().radius;
+  for (int axis = 0; axis < 3; ++axis)
+    form.sizes[static_cast<std::size_t>(axis)] =
+        definition.inner_half_extents()[axis] + tolerance::screen_box_margin * R;
+  form.R = form.inner_R = R * (1 + 2 * tolerance::screen_box_margin);
+  return form;
+}
+
+ScreenForm screen_form(const exact::Form& form, const Vec3<double>& centre) {
+  const Vec3<double> offset = form.offset - centre;
+  ScreenForm screen;
+  const auto in_float = [](double x) { return static_cast<float>(x); };
+  for (std::size_t i = 0; i < screen.sizes.size(); ++i) screen.sizes[i] = in_float(form.sizes[i]);
+  screen.slope = in_float(form.slope);
+  screen.sine = in_float(form.sine);
+  screen.R = in_float(form.R);
+  screen.least = in_float(least_round(form));
+  for (int axis = 0; axis < 3; ++axis) {
+    screen.scale[static_cast<std::size_t>(axis)] = in_float(form.scale[axis]);
+    screen.offset[static_cast<std::size_t>(axis)] = in_float(offset[axis]);
+  }
+  screen.extent = in_float(form.largest_scale * (form.inner_R + offset.norm()));
+  screen.up = form.is_upside_down ? -1.0f : 1.0f;
+  return screen;
+}
+
+/// Polytopes of more planes are screened by their box.
+constexpr std::size_t most_planes = 128;
+
+std::shared_ptr<const std::vector<float>> planes_of(const exact::Polytope& polytope) {
+  const exact::PolytopeTables& of = polytope.tables();
+  if (of.rounded_by > 0 || polytope.planes() > most_planes || polytope.planes() < 4) return {};
+  auto planes = std::make_shared<std::vector<float>>();
+  for (std::size_t i = 0; i < polytope.planes(); ++i) {
+    const double* const row = &of.planes[i * of.plane_row];
+    for (int k = 0; k < 4; ++k) planes->push_back(static_cast<float>(row[k]));
+    planes->push_back(static_cast<float>((row[4] + polytope.rounding()) * (1 + 0x1p-20)));
+  }
+  return planes;
+}
+
+}  // namespace
+
+Screen screen_of(const ShapeDefinition<double>& definition, const Vec3<double>& centre) {
+  Screen screen;
+  if (definition.is_extreme() || definition.is_lost_in_rounding()) return screen;
+  const exact::Form& own = definition.form();
+  const bool is_in_reach = is_in_range(own.R) && is_in_range(own.inner_R);
+  if (own.kind == FormKind::polytope && own.polytope && is_in_reach)
+    screen.planes = planes_of(*own.polytope);
+  screen.is_whole = has_lanes(own.kind) || screen.planes;
+  const exact::Form form = screen.is_whole ? own : box_around(definition);
+  if (!is_in_range(form.R) || !is_in_range(form.inner_R)) return {};
+  screen.kind = form.kind;
+  screen.form = screen_form(form, centre);
+  return screen;
+}
+
+}  // namespace minkray

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+// Everything here has internal linkage or the type of the lanes in its name: see core/math/wide.h.
+#include "core/screen/form_in_lanes.h"
+
+#if defined(__AVX2__)
+namespace minkray {
+namespace {
+
+/// A ray near a form, in the frame of its instance.
+struct Seen {
+  Vec3<W> near, d;  ///< from the centre, in the world
+  W k, d_squared;   ///< the parameter of `near`
+  Mat3<W> map;
+};
+
+template <FormKind kind>
+[[gnu::always_inline]] inline void look(const Seen& seen, const FormInLanes& form, W& first,
+                                        W& last) {
+  const Vec3<W>& near = seen.near;
+  const Mat3<W>& map = seen.map;
+  const W &k = seen.k, &d_squared = seen.d_squared;
+  Vec3<W> d;
+  Vec3<W> p = times(map, near) + form.offset;
+  d = times(map, seen.d);
+  p.z() *= form.up;
+  d.z() *= form.up;
+  const W largest_scale = max(max(form.scale.x(), form.scale.y()), form.scale.z());
+  p = p.cwiseProduct(form.scale);
+  d = d.cwiseProduct(form.scale);
+  exact::Line<W> line;
+  line.d = d;
+  line.dd = d.squaredNorm();
+  line.inv = W(1) / line.dd;
+  const W rest = -p.dot(d) * line.inv;
+  line.s = p + d * rest;
+  // |M| times the lengths of the point, of the step to the closest one, and of the form's own size
+  // along the line, before the map.
+  const W before = near.squaredNorm() + (rest * rest + form.R * form.R * line.inv) * d_squared;
+  const W reach = sqrt(W(3) * map.squaredNorm() * before);
+  line.E = W(tolerance::screen_rounding) * (largest_scale * reach + form.extent);
+  const W share = line.E / form.R;
+  line.parallel = share * share * W(0x1p-4f) * line.dd;
+  const Mask<W> bounded = (line.dd > W(tolerance::screen_shortest_squared)) &
+                          (line.dd < W(tolerance::screen_longest_squared)) &
+                          (line.E < W(tolerance::screen_largest_share) * min(form.least, form.R));
+
+  const exact::Entry<W> entry = enter<kind>(form, line, bounded);
+  using std::abs;
+  const auto slack_of = [&](const exact::Entry<W>& of) {
+    return W(2) * of.e + W(tolerance::screen_digits) * (abs(k) + abs(rest) + abs(of.t));
+  };
+  const W t = k + (rest + entry.t), slack = slack_of(entry), lo = t - slack, hi = t + slack;
+  const W infinity(std::numeric_limits<float>::infinity());
+  const Mask<W> sure = entry.hit & (lo >= W(0)), behind = entry.hit & (hi < W(0));
+  Mask<W> miss = entry.miss & bounded;
+  // Rays that begin at a shape leave it: its other side is behind them as well.
+  if (any(behind)) {
+    const exact::Entry<W> exit = enter_again<kind>(form, line.reversed(), behind);
+    miss |= exit.hit & (k + (rest - exit.t) + slack_of(exit) < W(0));
+  }
+  first = select(miss, infinity, select(sure, lo, W(0)));
+  last = select(sure, hi, infinity);
+}
+
+template <FormKind kind>
+[[gnu::always_inline]] inline ScreenBits look(const Seen& seen, const FormInLanes& form,
+                                              const W& limit, Screened& answers) {
+  W first, last;
+  look<kind>(seen, form, first, last);
+  first.store(answers.first.data());
+  last.store(answers.last.data());
+  // Infinity is not below infinity.
+  return {lane_bits((first <= limit) & (first < W(std::numeric_limits<float>::infinity()))),
+          lane_bits(last <= limit & (last < W(std::numeric_limits<float>::infinity())))};
+}
+
+/// Polytopes in the lanes, one definition after the other.
+[[gnu::noinline]] ScreenBits look_at_polytopes(const Seen& seen,
+                                               const Screen* const (&screens)[screen_lanes],
+                                               const W& limits, Screened& answers) {
+  ScreenBits all{0, 0};
+  for (std::uint32_t left = 0xffu; left != 0;) {
+    const Screen* const screen = screens[__builtin_ctz(left)];
+    Screened theirs;
+    const ScreenBits bits = look<FormKind::polytope>(seen, FormInLanes(*screen), limits, theirs);
+    for (std::size_t lane = 0; lane < screen_lanes; ++lane) {
+      if (screens[lane] != screen) continue;
+      const std::uint32_t bit = 1u << lane;
+      all.open |= bits.open & bit;
+      all.sure |= bits.sure & bit;
+      answers.first[lane] = theirs.first[lane];
+      answers.last[lane] = theirs.last[lane];
+      left &= ~bit;
+    }
+  }
+  return all;
+}
+
+template <FormKind kind>
+ScreenBits screen(const ScreenList& list, const std::uint32_t* rays, const std::uint32_t* instances,
+                  Screened& answers) {
+  const InstancePlace* place[screen_lanes];
+  const double* ray[screen_lanes];
+  __m256d from_centre[screen_lanes];
+  std::uint32_t others = 0;
+  for (std::size_t lane = 0; lane < screen_lanes; ++lane) {
+    place[lane] = list.places + instances[lane];
+    ray[lane] = reinterpret_cast<const double*>(list.rays + list.stride * rays[lane]);
+    from_centre[lane] =
+        _mm256_sub_pd(_mm256_loadu_pd(ray[lane]), _mm256_loadu_pd(place[lane]->origin));
+    others |= place[lane]->body ^ place[0]->body;
+  }
+  const auto vector = [](const std::array<W, 4>& v) { return Vec3<W>(v[0], v[1], v[2]); };
+  Seen seen;
+  const Vec3<W> outer =
+      vector(side_by_side([&](std::size_t lane) { return _mm256_cvtpd_ps(from_centre[lane]); }));
+  seen.d = vector(side_by_side(
+      [&](std::size_t lane) { return _mm256_cvtpd_ps(_mm256_loadu_pd(ray[lane] + 3)); }));
+  seen.d_squared = seen.d.squaredNorm();
+  seen.k = -outer.dot(seen.d) / seen.d_squared;
+  alignas(32) float steps[screen_lanes];
+  seen.k.store(steps);
+  seen.near = vector(side_by_side([&](std::size_t lane) {
+    const __m256d step = _mm256_set1_pd(static_cast<double>(steps[lane]));
+    return _mm256_cvtpd_ps(
+        _mm256_fmadd_pd(_mm256_loadu_pd(ray[lane] + 3), step, from_centre[lane]));
+  }));
+  const auto one = side_by_side([&](std::size_t lane) { return four(place[lane]->to_inner); });
+  const auto two = side_by_side([&](std::size_t lane) { return four(place[lane]->to_inner + 4); });
+  for (int k = 0; k < 4; ++k) {
+    seen.map(k % 3, k / 3) = one[static_cast<std::size_t>(k)];
+    seen.map((k + 4) % 3, (k + 4) / 3) = two[static_cast<std::size_t>(k)];
+  }
+  const auto last = [&](std::size_t i) { return place[i]->to_inner[8]; };
+  seen.map(2, 2) =
+      W(W::Lanes{last(0), last(1), last(2), last(3), last(4), last(5), last(6), last(7)});
+  const auto limit = [&](std::size_t i) { return list.limits[rays[i]]; };
+  const W limits(
+      W::Lanes{limit(0), limit(1), limit(2), limit(3), limit(4), limit(5), limit(6), limit(7)});
+  if (others == 0) [[likely]]
+    return look<kind>(seen, FormInLanes(list.screens[place[0]->body]), limits, answers);
+  if constexpr (kind == FormKind::polytope) {
+    const Screen* screens[screen_lanes];
+    for (std::size_t lane = 0; lane < screen_lanes; ++lane)
+      screens[lane] = &list.screens[place[lane]->body];
+    return look_at_polytopes(seen, screens, limits, answers);
+  } else {
+    const ScreenForm* forms[screen_lanes];
+    for (std::size_t lane = 0; lane < screen_lanes; ++lane)
+      forms[lane] = &list.screens[place[lane]->body].form;
+    return look<kind>(seen, FormInLanes(forms), limits, answers);
+  }
+}
+
+}  // namespace
+
+ScreenBits screen_avx2(FormKind kind, const ScreenList& list, const std::uint32_t* rays,
+                       const std::uint32_t* instances, Screened& answers) {
+  return for_kind(kind, [&]<FormKind of>() { return screen<of>(list, rays, instances, answers); });
+}
+
+}  // namespace minkray
+#else
+namespace minkray {
+
+/// Never called on other machines.
+ScreenBits screen_avx2(FormKind, const ScreenList&, const std::uint32_t*, const std::uint32_t*,
+                       Screened&) {
+  return {0, 0};
+}
+
+}  // namespace minkray
+#endif

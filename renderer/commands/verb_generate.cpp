@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// minkray generate: benchmark scenes of any size.
+#include <memory>
+
+#include "renderer/arguments/image_arguments.h"
+#include "renderer/cli/file_ending.h"
+#include "renderer/cli/options.h"
+#include "renderer/cli/verbs.h"
+#include "renderer/generate/generate.h"
+#include "renderer/scene/scene_instances.h"
+
+namespace minkray {
+namespace {
+
+struct GenerateVerbOptions {
+  std::string kind;
+  std::string out;
+  std::size_t count = 1000;
+  std::string seed = "0";
+};
+
+}  // namespace
+
+void add_generate(Parser& parser, ExitCode&) {
+  const Verb verb = parser.add_verb("generate");
+  const auto options = std::make_shared<GenerateVerbOptions>();
+  std::vector<std::string> names;
+  std::string docs;
+  for (const GeneratedKind& kind : generated_kinds) {
+    names.emplace_back(kind.name);
+    docs += (docs.empty() ? "" : "; ") + std::string(kind.name) + ": " + std::string(kind.doc);
+  }
+  verb.add_option("kind", options->kind, docs).required().one_of(names);
+  verb.add_option("-n,--count", options->count, "Number of shapes")
+      .between(std::size_t{1}, most_instances)
+      .show_default();
+  verb.add_option("-o,--output", options->out,
+                  "Scene file (JSON); many poses go to a .f32 file next to it")
+      .required()
+      .writes_file();
+  verb.add_option("--seed", options->seed, "Random seed (0 to 2^64 - 1)").takes("N").show_default();
+  verb.on_call([options] {
+    check_ending(options->out, ".json", "--output");
+    generate_scene({options->kind, options->count, parse_seed(options->seed)}, options->out);
+  });
+}
+
+}  // namespace minkray

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// minkray trace: prints every iteration of the cast for one pixel's ray.
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <optional>
+
+#include "core/derived/convert.h"
+#include "renderer/arguments/choices.h"
+#include "renderer/arguments/image_arguments.h"
+#include "renderer/arguments/import_arguments.h"
+#include "renderer/base/errors.h"
+#include "renderer/cli/file_ending.h"
+#include "renderer/cli/options.h"
+#include "renderer/cli/verbs.h"
+#include "renderer/io/output_file.h"
+#include "renderer/json/number_json.h"
+#include "renderer/paper/trace_picture.h"
+#include "renderer/rays/camera.h"
+#include "renderer/scene/scene_instances.h"
+
+namespace minkray {
+namespace {
+
+struct TraceVerbOptions {
+  CommandFiles* files = nullptr;
+  std::string scene;
+  ImportOptions import;
+  std::vector<int> pixel;
+  std::string object;
+  std::optional<std::string> svg;
+  std::string precision = "double";
+  std::string solver = "auto";
+  std::string resolution;  ///< empty: the scene's
+  bool json = false;
+};
+
+/// Limit of objects: each takes some hundred bytes and is cast at separately.
+constexpr std::size_t most_traced = 1000000;
+
+/// Chooses the object to show: the named one, otherwise the first that the ray meets, otherwise the
+/// one whose miss took most iterations. Without objects in the scene there is none.
+template <class T>
+std::size_t choose(const std::vector<PreparedShape<T>>& shapes, const Scene& scene,
+                   const std::vector<std::size_t>& objects, const Ray<T>& ray,
+                   const CastOptions<T>& cast, const std::string& name) {
+  std::size_t nearest = shapes.size(), hardest = shapes.size();
+  T t = std::numeric_limits<T>::infinity();
+  int iterations = -1;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (!name.empty()) {
+      if (instance_object(scene, objects[i]).name == name) return i;
+      continue;
+    }
+    const CastResult<T> result = cast_ray(shapes[i], ray, cast);
+    if (result.found() && result.t() < t) {
+      nearest = i;
+      t = result.t();
+    }
+    if (result.iterations > iterations) {
+      hardest = i;
+      iterations = result.iterations;
+    }
+  }
+  if (!name.empty())
+    throw WrongUsage("trace: the scene has no object \"" + name + "\" that is a shape");
+  return nearest < shapes.size() ? nearest : hardest;
+}
+
+template <class T>
+void trace(const TraceVerbOptions& options) {
+  if (options.svg) check_ending(*options.svg, ".svg", "--svg");
+  ImageArguments picture;
+  picture.files = options.files;
+  picture.scene = options.scene;
+  picture.import = options.import;
+  picture.resolution = options.resolution;
+  const Scene scene = picture.load_scene();
+  const Resolution size = picture.render_options(scene).resolution;
+  const int x = options.pixel[0], y = options.pixel[1];
+  if (x < 0 || y < 0 || x >= size.width || y >= size.height)
+    throw WrongUsage("trace: --pixel must be within 0,0 and " + std::to_string(size.width - 1) +
+                     "," + std::to_string(size.height - 1));
+  if (options.svg) check_writable(*options.svg);
+  const Ray<double> through = Camera(scene.camera, size).ray(x + 0.5, y + 0.5);
+  const Ray<T> ray{through.origin.template cast<T>(), through.direction.template cast<T>()};
+  CastOptions<T> cast;
+  cast.solver = solver_named(options.solver);
+  std::vector<PreparedShape<T>> shapes;
+  std::vector<std::size_t> objects;  // number of each shape's object
+  const std::size_t count = instance_count(scene);
+  if (count > most_traced)
+    throw BadInput(options.scene + ": has " + std::to_string(count) + " objects, trace takes " +
+                   std::to_string(most_traced));
+  shapes.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Object object = instance_object(scene, i);
+    if (!object.has_shape()) continue;  // has a closed form, and no iterations to show
+    objects.push_back(i);
+    shapes.emplace_back(convert<T>(object.shape), object.pose.template cast<T>());
+  }
+  const std::size_t chosen = choose(shapes, scene, objects, ray, cast, options.object);
+  if (chosen == shapes.size()) throw BadInput(options.scene + ": has no objects");
+  const CastTrace<T> result = trace_ray(shapes[chosen], ray, cast);
+
+  if (options.svg) {
+    const std::string svg = trace_svg(result, shapes[chosen]);
+    write_file(*options.svg,
+               std::span(reinterpret_cast<const unsigned char*>(svg.data()), svg.size()));
+  }
+  const double t = double(result.result.t_base) + double(result.result.t_offset);
+  const bool found = result.result.found();
+  if (options.json) {
+    Json json{{"object", instance_object(scene, objects[chosen]).name},
+              {"pixel", {x, y}},
+              {"origin", point_json(ray.origin)},
+              {"direction", point_json(ray.direction)},
+              {"ball_centre", point_json(result.ball.centre)},
+              {"status", name_of(result.result.status)}};
+    if (found) json["t"] = number_json(t);
+    json["normal"] = point_json(result.result.normal);
+    json["iterations"] = result.result.iterations;
+    json["supports"] = result.result.supports;
+    json["trace"] = trace_json(result);
+    std::cout << json.dump() << '\n';
+    return;
+  }
+  if (!found && options.object.empty())
+    std::cout << "the ray hits no shape with iterations (planes and meshes have none); showing the "
+                 "miss with most iterations:\n";
+  std::cout << "object \"" << instance_object(scene, objects[chosen]).name
+            << "\": " << name_of(result.result.status);
+  if (found) std::cout << ", t = " << number_json(t).dump();
+  std::cout << ", " << result.result.iterations << " iterations, " << result.result.supports
+            << " supports\n"
+            << trace_table(result);
+}
+
+}  // namespace
+
+void add_trace(Parser& parser, ExitCode&) {
+  const Verb verb = parser.add_verb("trace");
+  const auto options = std::make_shared<TraceVerbOptions>();
+  options->files = &verb.files();
+  add_scene_option(verb, options->scene);
+  add_import_options(verb, options->import);
+  verb.add_option("--pixel", options->pixel, "x,y from the upper left corner; through its centre")
+      .required()
+      .values(2, ',');
+  verb.add_option("-r,--resolution", options->resolution,
+                  "Size of the picture in pixels (default: the scene's)")
+      .takes("WxH");
+  verb.add_option("--object", options->object, "The object's name; by default the one that is hit")
+      .takes("NAME");
+  verb.add_option("--precision", options->precision, "Numbers of the cast")
+      .one_of({"float", "double"})
+      .show_default();
+  add_solver_option(verb, options->solver);
+  verb.add_flag("--json", options->json, "Print JSON");
+  verb.add_option("--svg", options->svg, "Also draw it into this file").writes_file();
+  verb.on_call([options] {
+    if (options->precision == "float")
+      trace<float>(*options);
+    else
+      trace<double>(*options);
+  });
+}
+
+}  // namespace minkray

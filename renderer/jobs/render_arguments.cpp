@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/jobs/render_arguments.h"
+
+#include "renderer/arguments/choices.h"
+#include "renderer/base/errors.h"
+#include "renderer/cli/options.h"
+#include "renderer/film/data_channels.h"
+#include "renderer/share/checkpoint.h"
+
+namespace minkray {
+namespace {
+
+constexpr const char* picture_suffix = ".png";
+constexpr const char* several_machines = "Several machines";
+
+}  // namespace
+
+void RenderArguments::choose_output(const Ranks& ranks) {
+  if (image.outputs.empty() && (is_share() || frames || ranks.count() > 1))
+    throw WrongUsage("--output: is needed with --tile, --sample-share, --frames and MPI");
+  image.choose_output(picture_suffix);
+  const bool has_checkpoint = checkpoint_seconds > 0 || resume;
+  if (!frames && ranks.count() == 1 && has_checkpoint)
+    image.files->write(Checkpoint::path_for(image.outputs.front()), "--output");
+}
+
+void RenderArguments::add_to(const Verb& verb) {
+  image.samples = 16;
+  image.add_to(verb, picture_suffix);
+  add_solver_option(verb, image.solver);
+  verb.add_option("--exposure", exposure,
+                  "Exposure in stops (.pfm and .exr keep the scene's light)")
+      .show_default();
+  std::string kinds = "Rendering method:";
+  std::vector<std::string> names;
+  for (const IntegratorDescription& kind : integrators) {
+    kinds += "\n" + std::string(kind.name) + ": " + std::string(kind.doc);
+    names.emplace_back(kind.name);
+  }
+  verb.add_option("--integrator", integrator, kinds).one_of(names).show_default();
+  verb.add_option("--max-depth", max_depth,
+                  "Most bounces of --integrator path; 0: emissive objects only")
+      .between(0, 1000)
+      .show_default();
+  verb.add_option("--bounces", bounces,
+                  "Diffuse bounces of --integrator ambient; 0: ambient occlusion")
+      .between(0, 64)
+      .show_default();
+  verb.add_option("--clamp", clamp,
+                  "Clamp indirect light (path): fewer fireflies, slightly darker; 0: off")
+      .between(0.0, 1e30)
+      .show_default();
+  verb.add_option("--noise", noise,
+                  "Adaptive sampling: relative error at which a pixel stops; 0: off")
+      .between(0.0, 1.0)
+      .show_default();
+  verb.add_flag("--denoise", denoise, "Denoise (best at few samples per pixel)");
+  verb.add_flag("--half", has_halfs, "Write the colors of .exr with 16-bit floats");
+  std::string maps = "Tone mapping of PNG output:";
+  for (const ToneMapDescription& map : tone_maps)
+    maps += "\n" + std::string(map.name) + ": " + std::string(map.doc);
+  verb.add_option("--tonemap", tone_map, maps).one_of(tone_map_names()).show_default();
+  verb.add_option("--ray-group", ray_group,
+                  "Camera rays traced together (does not change the picture)")
+      .between(1, most_in_ray_group)
+      .show_default()
+      .group(research_group);
+  verb.add_option(
+          "--build",
+          [this](const std::string& name) {
+            build = name == "speed" ? BvhBuild::speed : BvhBuild::quality;
+          },
+          "BVH build, for faster rays or for a faster build")
+      .one_of({"quality", "speed"})
+      .group(research_group);
+  std::string channels;
+  for (const DataChannelDescription& channel : data_channels)
+    channels += "\n" + std::string(channel.name) + ": " + std::string(channel.doc);
+  verb.add_option(
+          "--aov", aov,
+          "AOVs (extra EXR channels), comma-separated, or all; one unfiltered ray per pixel:" +
+              channels)
+      .takes("NAMES");
+  verb.add_option("--tile", tile, "Render tile I of N, for minkray merge")
+      .takes("I/N")
+      .group(several_machines);
+  verb.add_option("--sample-share", sample_share,
+                  "Render share I of N of each pixel's samples, for minkray merge")
+      .takes("I/N")
+      .group(several_machines);
+  verb.add_option("--tiles", tiles, "Tiles under mpirun; default: one per about 64 x 64 pixels")
+      .between(1, 999999)
+      .group(several_machines);
+  verb.add_option("--checkpoint", checkpoint_seconds,
+                  "Seconds between checkpoints, next to the first output; 0: none")
+      .between(0.0, 1e9)
+      .show_default();
+  verb.add_flag("--resume", resume, "Resume from the checkpoint, if there is one");
+  verb.add_flag("--progressive", progressive,
+                "Render in passes of 1, 2, 4 ... samples per pixel; show each pass");
+  verb.add_option("--tev", tev, "Show the picture in tev while rendering (default port 14158)")
+      .takes("HOST:PORT");
+  verb.add_option("--frames", frames,
+                  "Render these frames; #### in -o becomes the frame number\n"
+                  "--resume skips frames listed in the record ####.png.frames")
+      .takes("A..B");
+  verb.add_option("--rate", rate, "Frames per second (fps)").between(1e-6, 1e6).show_default();
+  verb.add_option("--contact-sheet", contact_sheet, "Picture with thumbnails of all --frames")
+      .writes_file();
+  verb.add_flag("--stats", stats, "Print rays, speed, work and memory; --stats=json")
+      .group(research_group);
+  verb.add_flag("--certify", certify, "Prove the answer to every ray; exit 1 if a proof fails")
+      .group(research_group);
+}
+
+}  // namespace minkray

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/jobs/render_request.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "renderer/base/errors.h"
+#include "renderer/cli/command_line.h"
+#include "renderer/cli/words_meant.h"
+#include "renderer/film/data_channels.h"
+#include "renderer/io/image_file.h"
+#include "renderer/jobs/write_picture.h"
+#include "renderer/json/mistakes.h"
+
+namespace minkray {
+namespace {
+
+void check_shares(const RenderOptions& options) {
+  const Share tile = options.tile, share = options.sample_share;
+  const PixelRect picture = options.picture();
+  if (!can_be_tiled(picture, tile.count))
+    throw WrongUsage("--tile: the picture has too few pixels for " + std::to_string(tile.count) +
+                     " tiles");
+  const int blocks = SampleBlocks{options.samples}.count();
+  if (share.count > blocks)
+    throw WrongUsage("--sample-share: " + std::to_string(options.samples) +
+                     " samples a pixel can be shared by at most " + std::to_string(blocks) +
+                     " (got " + share.text() + ")");
+}
+
+/// Throws WrongUsage for another program's name of a channel, with the name to use here.
+void check_channels(const std::string& list) {
+  std::vector<std::string> known;
+  for (const DataChannelDescription& channel : data_channels) known.emplace_back(channel.name);
+  std::istringstream names(list);
+  for (std::string name; std::getline(names, name, ',');) {
+    if (name == "all" || std::ranges::find(known, name) != known.end()) continue;
+    if (const std::string meant = value_meant(name, known); !meant.empty())
+      throw WrongUsage("--aov: there is no channel " + printable(name, 40) + "; " + meant);
+  }
+}
+
+}  // namespace
+
+RenderJob job_of(const RenderArguments& options, const Ranks& ranks) {
+  RenderJob job;
+  check_exposure(options.exposure);
+  if (!options.stats.empty() && options.stats != "true" && options.stats != "json")
+    throw WrongUsage("--stats: takes nothing or =json (got " + options.stats + ")");
+  if (std::isnan(options.checkpoint_seconds))
+    throw WrongUsage("--checkpoint: must be a number of seconds (got nan)");
+  if (std::isnan(options.rate)) throw WrongUsage("--rate: must be a number of frames (got nan)");
+  if (options.aov) {
+    check_channels(*options.aov);
+    job.channels = parse_data_channels(*options.aov);
+  }
+  const std::vector<std::string>& outputs = options.image.outputs;
+  if (options.aov && std::none_of(outputs.begin(), outputs.end(), keeps_planes))
+    throw WrongUsage("--aov: needs an output that ends in .exr (got " + outputs.front() + ")");
+  for (const std::string& output : outputs)
+    if (options.is_share() && !keeps_planes(output))
+      throw WrongUsage("--output: a share of a picture must end in .exr (got " + output + ")");
+  if (options.is_share() && options.has_halfs)
+    throw WrongUsage(
+        "--half: not allowed with --tile or --sample-share, which store 32-bit floats");
+  if (options.tile) job.options.tile = parse_share(*options.tile, "--tile");
+  if (options.sample_share)
+    job.options.sample_share = parse_share(*options.sample_share, "--sample-share");
+  if (options.sample_share && options.noise > 0)
+    throw WrongUsage("--noise: needs all samples of a pixel; not allowed with --sample-share");
+  if (options.sample_share && options.aov)
+    throw WrongUsage("--aov: goes with --tile, but not with --sample-share");
+  if (options.progressive && (options.is_share() || ranks.count() > 1))
+    throw WrongUsage(
+        "--progressive: shows a whole picture: not with --tile, --sample-share or MPI");
+  if (options.denoise && (options.is_share() || ranks.count() > 1))
+    throw WrongUsage("--denoise: needs a whole picture: not with --tile, --sample-share or MPI");
+  if (options.denoise && options.image.samples < 2)
+    throw WrongUsage("--denoise: needs at least 2 samples a pixel, to know how much they differ");
+  if (!options.tev.empty() && (options.is_share() || ranks.count() > 1))
+    throw WrongUsage("--tev: shows a whole picture: not with --tile, --sample-share or MPI");
+  if (ranks.count() > 1 && options.is_share())
+    throw WrongUsage(
+        "--tile, --sample-share: the ranks of an MPI job share the picture themselves");
+  if (options.certify && (ranks.count() > 1 || options.resume))
+    throw WrongUsage("--certify: proves the rays of one whole run: not with --resume or MPI");
+  if (ranks.count() == 1 && options.tiles)
+    throw WrongUsage("--tiles: is for several ranks of an MPI job (mpirun minkray render)");
+  if (ranks.rank() == 0) check_outputs(outputs);
+  job.command = command_line();
+  job.checkpoint_seconds = options.checkpoint_seconds;
+  job.resume = options.resume;
+  job.denoise = options.denoise;
+  job.wants_planes = ranks.count() > 1 || std::any_of(outputs.begin(), outputs.end(), keeps_planes);
+  job.quiet = options.image.quiet;
+  return job;
+}
+
+FrameRange frames_of(const RenderArguments& options, const Ranks& ranks) {
+  if (!options.frames) {
+    if (!options.contact_sheet.empty())
+      throw WrongUsage("--contact-sheet: goes with --frames only");
+    return {};
+  }
+  const FrameRange frames = parse_frames(*options.frames);
+  for (const std::string& output : options.image.outputs) check_frame_name(output);
+  if (options.is_share() || ranks.count() > 1)
+    throw WrongUsage("--frames: not with --tile, --sample-share or MPI; share the frames instead");
+  if (options.certify) throw WrongUsage("--frames: not with --certify, which proves one picture");
+  if (options.contact_sheet.empty()) return frames;
+  if (options.resume)
+    throw WrongUsage("--contact-sheet: shows the frames of a whole run: not with --resume");
+  check_outputs({options.contact_sheet});
+  return frames;
+}
+
+void set_options(RenderJob& job, const RenderArguments& options) {
+  const RenderOptions shares = job.options;
+  job.options = options.image.render_options(job.scene);
+  job.options.tile = shares.tile;
+  job.options.sample_share = shares.sample_share;
+  job.options.integrator.bounces = options.bounces;
+  job.options.integrator.ray_group = options.ray_group;
+  job.options.integrator.max_depth = options.max_depth;
+  job.options.integrator.clamp = options.clamp;
+  job.options.noise = options.noise;
+  job.options.light_channels = options.denoise || are_light_channels_wanted(job.channels);
+  for (const IntegratorDescription& kind : integrators)
+    if (kind.name == options.integrator)
+      job.options.integrator.kind = settled(kind.kind, job.scene);
+  check_shares(job.options);
+}
+
+}  // namespace minkray

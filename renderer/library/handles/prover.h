@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Proves results about whole scenes: the named object is hit, and no other one before it.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/math/bounds.h"
+#include "core/proof/check_certificate.h"
+#include "renderer/library/handles/held_scene.h"
+
+namespace minkray {
+
+/// Refers to the scene, which must be committed. Any number of threads may call it.
+class Prover {
+ public:
+  explicit Prover(const HeldScene& scene);
+
+  minkray_proof prove(const Ray<double>& ray, const minkray_hit& hit) const;
+
+ private:
+  /// One instance in the world.
+  struct Body {
+    bool is_removed = false;
+    std::optional<Shape<double>> shape;  ///< none: a half-space or mesh
+    std::optional<PosedMesh> mesh;
+    HalfSpaceBody<double> half_space;
+    Bounds<double> bounds;
+    std::vector<std::shared_ptr<const CustomSupport>> customs;
+  };
+
+  CertificateVerdict verdict(const Body& body, const Ray<double>& ray, const Claim& claim,
+                             Certificate* found) const;
+  /// True if the ray is proven not to hit the body before t_lo.
+  bool keeps_off(std::uint32_t index, const Ray<double>& ray, double t_lo) const;
+
+  const World& world_;
+  std::vector<Body> bodies_;
+};
+
+}  // namespace minkray

@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/library/handles/scene_bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <unordered_map>
+
+#include "core/derived/cube.h"
+#include "core/mesh/mapped.h"
+#include "core/parallel/parallel.h"
+#include "core/parts/parts_contact.h"
+#include "core/parts/parts_distance.h"
+#include "core/parts/parts_impact.h"
+#include "core/parts/parts_reach.h"
+#include "renderer/import/model/mesh_hull.h"
+#include "renderer/import/scene_of_model.h"
+#include "renderer/library/handles/call.h"
+#include "renderer/library/handles/poses.h"
+
+namespace minkray {
+namespace {
+
+SignedDistance distance_to(const PlacedPlane& plane, const ContactBody& body) {
+  return distance_to_half_space(plane, body.parts(), body.pose);
+}
+
+void turn_round(SignedDistance& found) {
+  std::swap(found.point_a, found.point_b);
+  found.normal = -found.normal;
+}
+
+void turn_round(PairDerivative& derivative) {
+  std::swap(derivative.a, derivative.b);
+}
+
+/// The part of the half-space within `reach` of the point, as a box: all that a body of that reach
+/// can touch.
+ContactBody as_box(const PlacedPlane& plane, const Vec3<double>& near, double reach) {
+  const Vec3<double>& n = plane.normal;
+  const TwoFoldVec3<double> from_plane = TwoFoldVec3<double>(near) - plane.point;
+  const double height = n.dot(from_plane.rounded());
+  const double half = 2 * (reach + std::abs(height));
+  Affine<double> pose;
+  pose.linear.col(0) = n.unitOrthogonal();
+  pose.linear.col(1) = n.cross(pose.linear.col(0));
+  pose.linear.col(2) = n;
+  pose.translation = near - (height + half) * n;
+  return {ContactShape(cube_of(half)), pose};
+}
+
+/// Largest distance that the moving body gets from its origin at time 0.
+double way_of(const PartsBody& moving, const RigidMotion& motion, double t_max) {
+  return reach_of(moving) + t_max * motion.velocity.norm();
+}
+
+constexpr double square(double x) {
+  return x * x;
+}
+
+/// The next float that is no more.
+float float_below(double x) {
+  constexpr double largest = std::numeric_limits<float>::max();
+  const float rounded = static_cast<float>(std::clamp(x, -largest, largest));
+  return double(rounded) <= x ? rounded
+                              : std::nextafter(rounded, -std::numeric_limits<float>::infinity());
+}
+
+constexpr double no_end = std::numeric_limits<double>::infinity();
+
+double value_of(const ScenePair& pair) {
+  return pair.distance.is_unknown() ? no_end : pair.distance.value;
+}
+
+}  // namespace
+
+namespace {
+
+/// Robots' meshes that touch as something else, by object.
+std::unordered_map<std::uint32_t, Touch> touches_of_meshes(const HeldScene& scene) {
+  std::unordered_map<std::uint32_t, Touch> touches;
+  for (std::uint32_t g = 0; g < scene.groups(); ++g) {
+    const HeldScene::Group& group = scene.group(g);
+    if (!group.model) continue;
+    const std::vector<bool> wanted = chosen_geoms(*group.model, group.options.geometry);
+    std::uint32_t object = group.first;
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+      if (!wanted[i]) continue;
+      const ModelGeom& geom = group.model->geoms[i];
+      if (geom.mesh && geom.touches != Touch::as_seen) touches.emplace(object, geom.touches);
+      ++object;
+    }
+  }
+  return touches;
+}
+
+}  // namespace
+
+SceneBodies::SceneBodies(const HeldScene& scene) : scene_(scene) {
+  const Instances& instances = scene.world().instances();
+  const PairRules& rules = scene.pair_rules();
+  body_of_.assign(instances.size(), none);
+  std::vector<ContactBody> bodies;
+  std::unordered_map<std::uint32_t, ContactShape> ready;
+  std::unordered_map<const TriangleMesh*, ContactShape> ready_hulls;
+  const std::unordered_map<std::uint32_t, Touch> touches = touches_of_meshes(scene);
+  for (std::uint32_t i = 0; i < instances.size(); ++i) {
+    if (scene.is_removed(i)) continue;
+    const PairRules::Masks masks = rules.masks(i);
+    if (instances.is_half_space(i)) continue;
+    const Affine<double> pose = scene.pose_of_any(i);
+    if (instances.is_mesh(i)) {
+      // Scaling is part of the mesh.
+      std::shared_ptr<const TriangleMesh> mesh = instances.mesh_of(i).mesh;
+      Affine<double> place = pose;
+      const auto touch = touches.find(i);
+      if (touch != touches.end() && touch->second == Touch::as_half_space) {
+        half_spaces_.push_back(
+            {i, PlacedPlane::of(Vec3<double>::UnitZ(), 0, pose), pose.translation, masks});
+        continue;
+      }
+      if (touch != touches.end() && is_rigid(pose)) {
+        auto known = ready_hulls.find(mesh.get());
+        if (known == ready_hulls.end())
+          known = ready_hulls.emplace(mesh.get(), ContactShape(hull_of(*mesh))).first;
+        body_of_[i] = static_cast<std::uint32_t>(bodies.size());
+        objects_.push_back(i);
+        bodies.push_back({known->second, place, masks.category, masks.mask});
+        continue;
+      }
+      if (!is_rigid(pose)) {
+        mesh = mapped(*mesh, {pose.linear, Vec3<double>::Zero()});
+        place.linear.setIdentity();
+      }
+      body_of_[i] = static_cast<std::uint32_t>(bodies.size());
+      objects_.push_back(i);
+      bodies.push_back({point_, place, masks.category, masks.mask, std::move(mesh)});
+      continue;
+    }
+    const std::uint32_t number = instances.definition_of(i);
+    const Shape<double>& shape = instances.definition(number).original_shape();
+    body_of_[i] = static_cast<std::uint32_t>(bodies.size());
+    objects_.push_back(i);
+    if (is_rigid(pose)) {
+      auto known = ready.find(number);
+      if (known == ready.end()) known = ready.emplace(number, ContactShape(shape)).first;
+      bodies.push_back({known->second, pose, masks.category, masks.mask});
+    } else {
+      // Scaling is part of the shape.
+      const Affine<double> map{pose.linear, Vec3<double>::Zero()};
+      const Affine<double> place{Mat3<double>::Identity(), pose.translation};
+      bodies.push_back({ContactShape(shape, map), place, masks.category, masks.mask});
+    }
+  }
+  world_.emplace(std::move(bodies));
+  balls_.reserve(objects_.size());
+  for (const ContactBody& body : world_->bodies())
+    balls_.push_back(body.mesh
+                         ? Ball{body.pose.translation, no_end}
+                         : Ball{middle_in_world(body.shape, body.pose), body.shape.ball_radius()});
+  for (const Instances::PosedHalfSpace& one : instances.half_spaces()) {
+    if (scene.is_removed(one.instance)) continue;
+    const Affine<double> pose = scene.pose_of_any(one.instance);
+    half_spaces_.push_back({one.instance,
+                            PlacedPlane::of(one.at_rest.normal, one.at_rest.offset, pose),
+                            pose.translation, rules.masks(one.instance)});
+  }
+  for (std::uint32_t g = 0; g < scene.groups(); ++g) {
+    const HeldScene::Group& group = scene.group(g);
+    if (!group.model) continue;
+    if (robot_of_.empty()) {
+      robot_of_.assign(instances.size(), none);
+      places_.resize(instances.size());
+    }
+    const std::vector<int> rigid = rigid_groups(*group.model);
+    const std::vector<bool> wanted = chosen_geoms(*group.model, group.options.geometry);
+    std::uint32_t object = group.first;
+    for (std::size_t i = 0; i < wanted.size() && object < group.first + group.count; ++i) {
+      if (!wanted[i]) continue;
+      robot_of_[object] = g;
+      places_[object++] = place_of(group.model->geoms[i].link, *group.model, rigid);
+    }
+  }
+}
+
+bool SceneBodies::are_looked_at(std::uint32_t a, std::uint32_t b) const {
+  if (scene_.pair_rules().allows(a, b)) return false;
+  if (robot_of_.empty() || robot_of_[a] == none || robot_of_[a] != robot_of_[b]) return true;
+  return minkray::are_looked_at(places_[a], places_[b]);
+}
+
+const SceneBodies::HalfSpace* SceneBodies::half_space_of(std::uint32_t object) const {
+  const auto found = std::ranges::find(half_spaces_, object, &HalfSpace::object);
+  return found == half_spaces_.end() ? nullptr : &*found;
+}
+
+std::vector<ScenePair> SceneBodies::near(double within, double tolerance) const {
+  NearPairsOptions options;
+  options.at_most = within;
+  options.tolerance = tolerance;
+  options.wanted = [&](std::size_t a, std::size_t b) {
+    return are_looked_at(objects_[a], objects_[b]);
+  };
+  std::vector<ScenePair> pairs;
+  for (const NearPair& pair : near_pairs(*world_, options))
+    pairs.push_back({objects_[pair.a], objects_[pair.b], pair.distance});
+  if (half_spaces_.empty()) return pairs;
+  add_half_spaces_near(within, pairs);
+  std::ranges::sort(pairs, {}, [](const ScenePair& pair) { return std::pair(pair.a, pair.b); });
+  return pairs;
+}
+
+void SceneBodies::add_half_spaces_near(double within, std::vector<ScenePair>& pairs) const {
+  const std::vector<ContactBody>& bodies = world_->bodies();
+  std::vector<ScenePair> found(bodies.size());
+  for (const HalfSpace& half_space : half_spaces_) {
+    constexpr std::size_t grain = 256;
+    parallel_for(bodies.size(), grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        found[i].a = none;
+        const ContactBody& body = bodies[i];
+        if ((body.category & half_space.masks.mask) == 0 ||
+            (half_space.masks.category & body.mask) == 0 ||
+            !are_looked_at(half_space.object, objects_[i]))
+          continue;
+        SignedDistance distance = distance_to(half_space.plane, body);
+        if (distance.lower > within) continue;
+        if (half_space.object > objects_[i]) turn_round(distance);
+        found[i] = {std::min(half_space.object, objects_[i]),
+                    std::max(half_space.object, objects_[i]), distance};
+      }
+    });
+    std::ranges::copy_if(found, std::back_inserter(pairs),
+                         [](const ScenePair& pair) { return pair.a != none; });
+  }
+}
+
+SignedDistance SceneBodies::distance(std::uint32_t a, std::uint32_t b,
+                                     const SignedDistanceOptions& how) const {
+  const HalfSpace *plane_a = half_space_of(a), *plane_b = half_space_of(b);
+  if (plane_a && plane_b)
+    wrong_use("must not be two half-spaces (got " + std::to_string(a) + " and " +
+              std::to_string(b) + ")");
+  if (!plane_a && !plane_b) {
+    const ContactBody &one = body_of(a), &other = body_of(b);
+    return signed_distance(one.parts(), one.pose, other.parts(), other.pose, how);
+  }
+  SignedDistance found =
+      plane_a ? distance_to(plane_a->plane, body_of(b)) : distance_to(plane_b->plane, body_of(a));
+  if (plane_b) turn_round(found);
+  return found;
+}
+
+ContactManifold SceneBodies::manifold(std::uint32_t a, std::uint32_t b,
+                                      const SignedDistance& nearest) const {
+  const auto solid = [&](std::uint32_t object, std::uint32_t other) -> ContactBody {
+    const HalfSpace* const half_space = half_space_of(object);
+    if (!half_space) return body_of(object);
+    const ContactBody& body = body_of(other);
+    if (body.mesh) return as_box(half_space->plane, body.pose.translation, body.mesh->reach());
+    return as_box(half_space->plane, middle_in_world(body.shape, body.pose),
+                  body.shape.ball_radius());
+  };
+  const ContactBody one = solid(a, b), other = solid(b, a);
+  if (one.mesh || other.mesh)
+    return contact_manifold(one.parts(), one.pose, other.parts(), other.pose);
+  return contact_manifold(one.shape, one.pose, other.shape, other.pose, nearest);
+}
+
+PairDerivative SceneBodies::derivative(const ScenePair& pair) const {
+  const HalfSpace *plane_a = half_space_of(pair.a), *plane_b = half_space_of(pair.b);
+  if (!plane_a && !plane_b) {
+    const ContactBody &one = body_of(pair.a), &other = body_of(pair.b);
+    if (one.mesh || other.mesh)
+      return derivative_of(one.parts(), one.pose, other.parts(), other.pose);
+    return finest_derivative_of(one.shape, one.pose, other.shape, other.pose);
+  }
+  const HalfSpace& plane = plane_a ? *plane_a : *plane_b;
+  const ContactBody& body = body_of(plane_a ? pair.b : pair.a);
+  SignedDistance distance = pair.distance;
+  if (plane_b) turn_round(distance);
+  // The lowest vertex of a mesh is a body of its own.
+  PairDerivative derivative =
+      derivative_at_half_space(plane.origin, body.mesh ? point_ : body.shape, body.pose, distance);
+  if (plane_b) turn_round(derivative);
+  return derivative;
+}
+
+std::vector<ScenePair> SceneBodies::nearest(const ContactBody& to, std::size_t count,
+                                            double at_most) const {
+  std::vector<ScenePair> best;
+  for (const NearPair& pair : nearest_bodies(to, *world_, count, at_most))
+    best.push_back({none, objects_[pair.b], pair.distance});
+  for (const HalfSpace& half_space : half_spaces_) {
+    if ((half_space.masks.category & to.mask) == 0) continue;
+    SignedDistance distance = distance_to(half_space.plane, to);
+    if (distance.lower > at_most) continue;
+    turn_round(distance);
+    best.push_back({none, half_space.object, distance});
+  }
+  std::ranges::stable_sort(best, {},
+                           [](const ScenePair& pair) { return std::pair(value_of(pair), pair.b); });
+  if (best.size() > count) best.resize(count);
+  return best;
+}
+
+PairDerivative SceneBodies::derivative(const ContactBody& of, const ScenePair& pair) const {
+  if (const HalfSpace* const half_space = half_space_of(pair.b)) {
+    SignedDistance distance = pair.distance;
+    turn_round(distance);
+    PairDerivative derivative = derivative_at_half_space(
+        half_space->origin, of.mesh ? point_ : of.shape, of.pose, distance);
+    turn_round(derivative);
+    return derivative;
+  }
+  const ContactBody& other = body_of(pair.b);
+  if (of.mesh || other.mesh) return derivative_of(of.parts(), of.pose, other.parts(), other.pose);
+  return finest_derivative_of(of.shape, of.pose, other.shape, other.pose);
+}
+
+Vec3<double> SceneBodies::origin(std::uint32_t object) const {
+  const HalfSpace* const half_space = half_space_of(object);
+  return half_space ? half_space->origin : body_of(object).pose.translation;
+}
+
+bool SceneBodies::is_another_at(const Vec3<double>& point, std::uint32_t object,
+                                double near) const {
+  for (const HalfSpace& one : half_spaces_)
+    if (one.object != object &&
+        std::abs(one.plane.normal.dot((TwoFoldVec3<double>(point) - one.plane.point).rounded())) <=
+            near)
+      return true;
+  if (world_->bodies().empty()) return false;
+  float least[3], most[3];  // of what is near, rounded outwards
+  for (int axis = 0; axis < 3; ++axis) {
+    least[axis] = float_below(point[axis] - near);
+    most[axis] = -float_below(-(point[axis] + near));
+  }
+  SignedDistanceOptions how;
+  how.at_most = near;
+  Affine<double> at;
+  at.translation = point;
+  std::uint32_t open[bvh_max_depth * (bvh_width - 1) + bvh_width];
+  int count = 0;
+  open[count++] = 0;
+  while (count > 0) {
+    const std::uint32_t what = open[--count];
+    if ((what & BvhNode::leaf) == 0) {
+      const BvhNode& node = world_->hierarchy().nodes[what];
+      int is_in[bvh_width];  // all at once; what is no child has an empty box
+      for (int i = 0; i < bvh_width; ++i) {
+        is_in[i] = 1;
+        for (int axis = 0; axis < 3; ++axis)
+          is_in[i] &= (node.planes[0][axis][i] <= most[axis] ? 1 : 0) &
+                      (node.planes[1][axis][i] >= least[axis] ? 1 : 0);
+      }
+      for (int i = 0; i < bvh_width; ++i)
+        if (is_in[i] != 0 && node.children[i] != BvhNode::none) open[count++] = node.children[i];
+      continue;
+    }
+    const std::uint32_t index = what & ~BvhNode::leaf;
+    // Most boxes that hold a point are of bodies that do not: their corners.
+    const Ball& ball = balls_[index];
+    if ((point - ball.middle).squaredNorm() > square(ball.radius + 2 * near) ||
+        objects_[index] == object)
+      continue;
+    const ContactBody& body = world_->bodies()[index];
+    const SignedDistance distance =
+        signed_distance(PartsBody(point_), at, body.parts(), body.pose, how);
+    if (distance.lower <= near && distance.upper >= -near) return true;
+  }
+  return false;
+}
+
+EarliestImpact SceneBodies::first_impact(const PartsBody& moving, const RigidMotion& motion,
+                                         double t_max, std::uint32_t mask) const {
+  EarliestImpact found = nothing_met(t_max);
+  for (const HalfSpace& half_space : half_spaces_) {
+    if ((half_space.masks.category & mask) == 0) continue;
+    const ContactBody box =
+        as_box(half_space.plane, motion.pose.translation, way_of(moving, motion, t_max));
+    take(found, half_space.object,
+         minkray::first_impact(moving, motion, box.parts(), {box.pose}, t_max));
+  }
+  // Bodies and half-spaces have numbers of their own until here.
+  EarliestImpact met = minkray::first_impact(
+      moving, motion, *world_, std::min(t_max, found.impact.t_hi), mask, nothing_met(t_max));
+  if (met.body != EarliestImpact::none) take(found, objects_[met.body], met.impact);
+  return found;
+}
+
+PairDerivative SceneBodies::derivative(const PartsBody& moving, const RigidMotion& motion,
+                                       const EarliestImpact& found) const {
+  if (found.body == EarliestImpact::none)
+    return derivative_of(point_, motion, point_, motion, found.impact);
+  const auto object = static_cast<std::uint32_t>(found.body);
+  const HalfSpace* const half_space = half_space_of(object);
+  const ContactBody body = half_space ? as_box(half_space->plane, motion.pose.translation,
+                                               way_of(moving, motion, found.impact.t_lo))
+                                      : body_of(object);
+  if (moving.shape() && !body.mesh)
+    return derivative_of(*moving.shape(), motion, body.shape, {body.pose}, found.impact);
+  return derivative_of(moving, motion, body.parts(), {body.pose}, found.impact.t_hi);
+}
+
+}  // namespace minkray

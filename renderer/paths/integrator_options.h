@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Integrators and their options.
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "renderer/rays/ray_observer.h"
+
+namespace minkray {
+
+/// Rendering method: the light that a picture shows.
+enum class IntegratorKind : unsigned char { automatic, path, direct, ambient, normals };
+
+struct IntegratorDescription {
+  IntegratorKind kind;
+  std::string_view name, doc;
+};
+
+/// The list of all there are.
+inline constexpr std::array integrators = {
+    IntegratorDescription{IntegratorKind::automatic, "auto",
+                          "path where the scene has what only that shows, else ambient"},
+    IntegratorDescription{IntegratorKind::path, "path",
+                          "all light, by paths of any length; unbiased"},
+    IntegratorDescription{IntegratorKind::direct, "direct",
+                          "light that comes straight from lights and shining bodies"},
+    IntegratorDescription{IntegratorKind::ambient, "ambient",
+                          "direct light, --bounces, and then ambient occlusion"},
+    IntegratorDescription{IntegratorKind::normals, "normals", "the normals' directions as colours"},
+};
+
+/// Kinds of light to follow, and how far.
+struct IntegratorOptions {
+  /// Largest number of scatterings between surfaces before the environment's light is used; 0 is
+  /// ambient occlusion.
+  int bounces = 1;
+  /// Largest number of mirrors in a row; behind the last, the environment is seen.
+  int mirrors = 4;
+  /// Number of camera rays that are traced together, with all rays that follow from them. The
+  /// picture is the same bit for bit.
+  int ray_group = 512;
+  /// Called with every ray and its result, if not null.
+  RayObserver* observer = nullptr;
+  IntegratorKind kind = IntegratorKind::automatic;
+  /// Largest number of times that a path may be scattered, mirrored or refracted.
+  int max_depth = 16;
+  /// Clamps light that arrives via more than one surface: fewer fireflies, slightly darker
+  /// (biased). 0: no limit.
+  double clamp = 0;
+};
+
+}  // namespace minkray

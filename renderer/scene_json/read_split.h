@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Objects whose mesh has parts, each of which gets a hull of its own.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "core/shape/shape.h"
+#include "renderer/json/object_reader.h"
+#include "renderer/member_json/mesh_files.h"
+
+namespace minkray {
+
+/// What "split" may say, and what it means.
+struct MeshSplitName {
+  std::string_view name;
+  MeshSplit split;
+};
+inline constexpr std::array mesh_split_names = {MeshSplitName{"groups", MeshSplit::groups},
+                                                MeshSplitName{"components", MeshSplit::components}};
+
+/// One hull a part of the mesh file that the object's shape names. Nothing, and mistakes, if
+/// anything is wrong.
+std::optional<std::vector<Shape<double>>> read_split_hulls(ObjectReader& object, const Json& split,
+                                                           const Json& shape, MeshFiles& meshes);
+
+}  // namespace minkray

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "renderer/scene_json/read_visible_to.h"
+
+#include <algorithm>
+
+#include "renderer/json/values.h"
+
+namespace minkray {
+namespace {
+
+constexpr std::string_view key = "visible_to";
+
+std::vector<std::string> known_names() {
+  std::vector<std::string> names;
+  for (const RayKindsName& known : ray_kinds_names) names.emplace_back(known.name);
+  return names;
+}
+
+bool may_shine(const Scene& scene, const MaterialKind& material) {
+  const auto* mix = std::get_if<MixMaterial>(&material);
+  return std::holds_alternative<EmissiveMaterial>(material) ||
+         (mix &&
+          std::any_of(mix->materials.indices.begin(), mix->materials.indices.end(),
+                      [&](std::uint32_t i) { return may_shine(scene, scene.materials[i].kind); }));
+}
+
+}  // namespace
+
+RayKinds read_visible_to(ObjectReader& object) {
+  const Json* const json = object.find(key);
+  if (!json) return all_ray_kinds;
+  const JsonPath path = object.path(key);
+  Mistakes& mistakes = object.mistakes();
+  if (!json->is_array() || json->empty()) {
+    mistakes.add(path, "must be a list of at least one name of rays (" + found(*json) + ")");
+    return all_ray_kinds;
+  }
+  RayKinds kinds = 0;
+  for (std::size_t i = 0; i < json->size(); ++i) {
+    const auto name = read_string((*json)[i], path / i, mistakes);
+    if (!name) continue;
+    const auto known = std::find_if(ray_kinds_names.begin(), ray_kinds_names.end(),
+                                    [&](const RayKindsName& one) { return one.name == *name; });
+    if (known == ray_kinds_names.end()) {
+      mistakes.add(path / i, "must be the name of rays (" + found((*json)[i]) + "; " +
+                                 suggestion(*name, known_names()) + ")");
+    } else if (kinds & known->kinds) {
+      mistakes.add(path / i, "must not be there twice (" + found((*json)[i]) + " again)");
+    } else {
+      kinds = static_cast<RayKinds>(kinds | known->kinds);
+    }
+  }
+  return kinds == 0 ? all_ray_kinds : kinds;
+}
+
+void check_visible(const Scene& scene, std::uint32_t material, RayKinds visible_to,
+                   const ObjectReader& object) {
+  constexpr RayKinds bring_light = shadow_rays | scattered_rays;
+  if (material >= scene.materials.size()) return;  // a mistake that has been told of
+  const Material& its = scene.materials[material];
+  if ((visible_to & its.visible_to & bring_light) == bring_light || !may_shine(scene, its.kind))
+    return;
+  object.mistakes().add(object.path(key),
+                        "must have \"shadow\" and \"scattered\" among them, which bring the "
+                        "light of what shines (it is of \"" +
+                            printable(its.name, 60) + "\")");
+}
+
+void write_visible_to(Json& object, RayKinds visible_to) {
+  if (visible_to == all_ray_kinds) return;
+  Json names = Json::array();
+  for (const RayKindsName& known : ray_kinds_names)
+    if (visible_to & known.kinds) names.push_back(std::string(known.name));
+  object[std::string(key)] = std::move(names);
+}
+
+Json visible_to_schema() {
+  Json names = Json::array();
+  std::string doc = "the rays that meet it, others go through it; all if left out";
+  for (const RayKindsName& known : ray_kinds_names) {
+    names.push_back(std::string(known.name));
+    doc += "; " + std::string(known.name) + ": " + std::string(known.doc);
+  }
+  return {{"type", "array"},
+          {"description", doc},
+          {"items", {{"enum", names}}},
+          {"minItems", 1},
+          {"uniqueItems", true}};
+}
+
+}  // namespace minkray

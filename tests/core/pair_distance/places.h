@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+// Pairs near the origin, and the same pairs moved by vectors that doubles hold exactly; and what
+// capsules' distances are in quadruple precision.
+#pragma once
+
+#include <array>
+#include <sstream>
+#include <string>
+
+#include "tests/core/pair_distance/random_bodies.h"
+#include "tests/support/sample_shapes.h"
+
+namespace minkray::testing {
+
+__extension__ using Quad = __float128;
+using QuadVec = std::array<Quad, 3>;
+
+inline constexpr std::array places = {10.0, 100.0, 1e4, 1e6, 1e9};
+
+/// Numbers with so few digits that they stay exact 10^9 away.
+inline Vec3<double> coarse(const Vec3<double>& v) {
+  return (v * 0x1p20).array().round().matrix() / 0x1p20;
+}
+inline Vec3<double> place_at(double distance, RandomShapes& random) {
+  return (distance * random.direction()).array().round().matrix();
+}
+
+inline Affine<double> moved(const Affine<double>& pose, const Vec3<double>& way) {
+  return {pose.linear, pose.translation + way};
+}
+inline Shape<double> under(const Shape<double>& shape, const Affine<double>& map) {
+  return Transform<double>{shape, map};
+}
+inline Shape<double> moved(const Shape<double>& shape, const Vec3<double>& way) {
+  return under(shape, {Mat3<double>::Identity(), way});
+}
+
+inline Quad root(Quad x) {
+  if (!(x > 0)) return 0;
+  Quad r = std::sqrt(static_cast<long double>(x));
+  for (int i = 0; i < 2; ++i) r = (r + x / r) / 2;
+  return r;
+}
+inline Quad quad_dot(const QuadVec& a, const QuadVec& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline QuadVec along(const QuadVec& a, const QuadVec& b, Quad t) {
+  return {a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]};
+}
+inline Quad limited(Quad t) {
+  return t < 0 ? Quad(0) : t > 1 ? Quad(1) : t;
+}
+
+struct QuadCapsule {
+  QuadVec from, way;
+  Quad radius;
+};
+
+/// The capsule's end in exact arithmetic of the pose's numbers.
+inline QuadVec image(const Affine<double>& pose, const Vec3<double>& p) {
+  QuadVec q;
+  for (int i = 0; i < 3; ++i) {
+    Quad sum = pose.translation[i];
+    for (int j = 0; j < 3; ++j) sum += Quad(pose.linear(i, j)) * Quad(p[j]);
+    q[static_cast<std::size_t>(i)] = sum;
+  }
+  return q;
+}
+inline QuadCapsule capsule(const Affine<double>& pose, double radius, double half) {
+  const QuadVec from = image(pose, {0, 0, -half}), to = image(pose, {0, 0, half});
+  return {from, along(to, from, -1), radius};
+}
+
+inline Quad signed_distance_of(const QuadCapsule& a, const QuadCapsule& b) {
+  const QuadVec x = along(b.from, a.from, -1);
+  const Quad aa = quad_dot(a.way, a.way), bb = quad_dot(b.way, b.way), ab = quad_dot(a.way, b.way),
+             ax = quad_dot(a.way, x), bx = quad_dot(b.way, x), area = aa * bb - ab * ab;
+  Quad least = -1;
+  const auto add = [&](Quad s, Quad t) {
+    const QuadVec c = along(along(x, b.way, t), a.way, -s);
+    const Quad squared = quad_dot(c, c);
+    if (least < 0 || squared < least) least = squared;
+  };
+  for (const Quad end : {Quad(0), Quad(1)}) {
+    add(limited(aa > 0 ? (ax + end * ab) / aa : 0), end);
+    add(end, limited(bb > 0 ? (end * ab - bx) / bb : 0));
+  }
+  if (area > aa * bb * Quad(1e-25)) {
+    const Quad s = (ax * bb - bx * ab) / area, t = (ax * ab - bx * aa) / area;
+    if (s > 0 && s < 1 && t > 0 && t < 1) add(s, t);
+  }
+  return root(least) - a.radius - b.radius;
+}
+
+/// Empty if the true distance is within the bounds and the status is true.
+inline std::string complaint_of(const SignedDistance& found, Quad truth) {
+  std::ostringstream text;
+  text.precision(17);
+  text << name_of(found.status) << " in [" << found.lower << ", " << found.upper << "], truth "
+       << static_cast<double>(truth) << ", off by "
+       << static_cast<double>(truth < found.lower ? truth - found.lower : truth - found.upper);
+  if (truth < found.lower || truth > found.upper) return text.str();
+  if (found.status == SignedStatus::separated && !(truth > 0)) return text.str();
+  if (found.status == SignedStatus::overlapping && !(truth < 0)) return text.str();
+  return "";
+}
+
+/// Empty if two answers to the same question may both be true, and the second is about as sharp:
+/// searches end with bounds 1e-12 of the size apart, or 1e-10 where they overlap, one here and the
+/// other there.
+inline std::string complaint_of(const SignedDistance& near, const SignedDistance& far,
+                                double size) {
+  std::ostringstream text;
+  text.precision(17);
+  text << name_of(near.status) << " in [" << near.lower << ", " << near.upper << "], far away "
+       << name_of(far.status) << " in [" << far.lower << ", " << far.upper << "]";
+  const double rounding = (near.lower > 0 ? 2e-11 : 5e-10) * size;
+  if (near.lower > far.upper || far.lower > near.upper) return text.str();
+  if (far.upper - far.lower > 4 * (near.upper - near.lower) + rounding) return text.str();
+  if (near.status == SignedStatus::separated && far.status == SignedStatus::overlapping)
+    return text.str();
+  if (near.status == SignedStatus::overlapping && far.status == SignedStatus::separated)
+    return text.str();
+  if (far.value < far.lower || far.value > far.upper) return text.str();
+  return "";
+}
+
+/// A gap that rounding hides or nearly so, of both signs, or none.
+inline double slight_gap(int k, RandomShapes& random) {
+  const double gap = std::pow(10, random.in(-17, -11));
+  return k % 3 == 0 ? 0 : k % 3 == 1 ? gap : -gap;
+}
+
+/// All kinds, some within others.
+inline Shape<double> any_shape(int k, RandomShapes& random) {
+  static const std::vector<SampleShape> samples = sample_shapes();
+  const std::size_t count = samples.size();
+  switch (k % 3) {
+    case 0:
+      return random_shape(k / 3 % kinds_of_bodies, 1, random);
+    case 1:
+      return samples[static_cast<std::size_t>(k / 3) % count].shape;
+    default:
+      return random_nesting(static_cast<std::uint64_t>(k), 3);
+  }
+}
+
+struct PosedShapes {
+  Shape<double> a, b;
+  Affine<double> pose_a, pose_b;
+  double size = 0;
+
+  SignedDistance distance() const {
+    return signed_distance(ContactShape(a), pose_a, ContactShape(b), pose_b);
+  }
+};
+
+/// Apart, overlapping, or next to touching.
+inline PosedShapes any_pair(int k, RandomShapes& random) {
+  PosedShapes pair{any_shape(k, random), any_shape(7 * k + 1, random), {random.turn(), {}}, {}};
+  const ContactShape a(pair.a), b(pair.b);
+  pair.size = a.ball_radius() + b.ball_radius() + a.offset() + b.offset();
+  pair.pose_a.translation = coarse(pair.size * random.direction());
+  pair.pose_b = {random.turn(), coarse(random.in(0, 2) * pair.size * random.direction())};
+  if (k % 2 == 0) return pair;
+  const double gap = pair.distance().value;
+  if (gap > 0 && gap < 10 * pair.size)
+    pair.a = Rounded<double>{gap + pair.size * slight_gap(k / 2, random), Nested<double>(pair.a)};
+  return pair;
+}
+
+}  // namespace minkray::testing

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Shapes somewhere in the world, for tests of queries on pairs.
+#pragma once
+
+#include <vector>
+
+#include "core/derived/convert.h"
+#include "core/shape_cast/distance.h"
+#include "core/shape_cast/shape_cast.h"
+#include "tests/core/pair_distance/random_numbers.h"
+
+namespace minkray::testing {
+
+class RandomPoses : public RandomNumbers {
+ public:
+  using RandomNumbers::RandomNumbers;
+  Vec3<double> in_cube(double half) { return {in(-half, half), in(-half, half), in(-half, half)}; }
+  Affine<double> pose(double spread) { return {turn(), in_cube(spread)}; }
+  /// Points of the cube, or of the square in it where z is 0.
+  std::vector<Vec3<double>> points(int count, bool flat) {
+    std::vector<Vec3<double>> result;
+    for (int i = 0; i < count; ++i) {
+      result.push_back(in_cube(1));
+      if (flat) result.back().z() = 0;
+    }
+    return result;
+  }
+};
+
+inline Affine<double> at(const Vec3<double>& where) {
+  return {Mat3<double>::Identity(), where};
+}
+inline Affine<double> at(double x, double y, double z) {
+  return at(Vec3<double>(x, y, z));
+}
+
+template <class T>
+CentredShape<T> place(const Shape<double>& shape, const Affine<double>& pose = {}) {
+  return centred<T>(convert<T>(shape), pose.template cast<T>());
+}
+
+template <class T = double>
+PreparedPair<T> pair_of(const Shape<double>& a, const Affine<double>& pose_a,
+                        const Shape<double>& b, const Affine<double>& pose_b) {
+  return PreparedPair<T>(centred(convert<T>(a), pose_a.cast<T>()),
+                         centred(convert<T>(b), pose_b.cast<T>()));
+}
+
+}  // namespace minkray::testing
