@@ -27,7 +27,12 @@ class GltfLooks {
 
   /// All materials of the file, by their numbers; read once.
   const std::vector<GltfLook>& all();
+  /// The materials of all(), and behind them those of primitives whose vertices have colours: these
+  /// are added as primitives are read.
   std::vector<MeshMaterial> materials();
+
+  /// Number of primitives whose vertices' colours are left out: their materials have pictures.
+  std::size_t colours_left_out() const { return colours_left_out_; }
 
   /// Attributes of a primitive's triangles, which are numbers into `used`; those are numbers of its
   /// `count` points. Mistakes where accessors are wrong.
@@ -37,11 +42,17 @@ class GltfLooks {
 
  private:
   GltfLook look_of(std::size_t material);
+  void add_colours(const Json& primitive, const JsonPath& path, std::size_t count,
+                   std::span<const std::uint32_t> used,
+                   const std::vector<MeshAttributes::Numbers>& triangles, const GltfLook& look,
+                   MeshAttributes& made);
   void read_picture(const Json& texture_info, const JsonPath& path, GltfLook& look);
 
   GltfDocument& document_;
   bool is_read_ = false;
   std::vector<GltfLook> all_;
+  std::vector<MeshMaterial> of_colours_;
+  std::size_t colours_left_out_ = 0;
   std::map<std::size_t, std::shared_ptr<const std::string>> bytes_;  ///< of pictures in the file
 };
 

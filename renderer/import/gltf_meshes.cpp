@@ -55,33 +55,65 @@ Affine<double> gltf_z_up() {
   return turn;
 }
 
-const MeshParts& GltfMeshes::mesh(std::size_t index) {
-  return read(index).parts;
+namespace {
+
+std::vector<double> weights_of(GltfDocument& document, const Json& object, const JsonPath& path) {
+  const Json* given = object.find("weights");
+  if (!given || !given->is_array()) return {};
+  return read_numbers(*given, path / "weights", document.mistakes(), given->size())
+      .value_or(std::vector<double>());
 }
 
-const std::vector<std::size_t>& GltfMeshes::primitives_of_parts(std::size_t index) {
-  return read(index).primitives;
+/// The largest number of morph targets of a mesh's primitives.
+std::size_t target_count(const Json& mesh) {
+  std::size_t most = 0;
+  const Json* primitives = mesh.find("primitives");
+  for (std::size_t i = 0; primitives && primitives->is_array() && i < primitives->size(); ++i) {
+    const Json& primitive = (*primitives)[i];
+    const Json* targets = primitive.is_object() ? primitive.find("targets") : nullptr;
+    if (targets && targets->is_array()) most = std::max(most, targets->size());
+  }
+  return most;
 }
 
-const GltfMeshes::Read& GltfMeshes::read(std::size_t index) {
-  const auto known = read_.find(index);
+}  // namespace
+
+GltfMeshUse gltf_mesh_use(GltfDocument& document, std::size_t mesh,
+                          std::optional<std::size_t> node) {
+  const Json& json = document.item("meshes", mesh);
+  GltfMeshUse use{mesh};
+  const std::size_t most = target_count(json);
+  if (most == 0) return use;
+  const bool is_own = node && document.item("nodes", *node).find("weights");
+  use.weights =
+      is_own ? weights_of(document, document.item("nodes", *node), JsonPath() / "nodes" / *node)
+             : weights_of(document, json, JsonPath() / "meshes" / mesh);
+  use.weights.resize(std::min(use.weights.size(), most));
+  while (!use.weights.empty() && use.weights.back() == 0) use.weights.pop_back();
+  return use;
+}
+
+const MeshParts& GltfMeshes::mesh(const GltfMeshUse& use) {
+  return read(use).parts;
+}
+
+const std::vector<std::size_t>& GltfMeshes::primitives_of_parts(const GltfMeshUse& use) {
+  return read(use).primitives;
+}
+
+const GltfMeshes::Read& GltfMeshes::read(const GltfMeshUse& use) {
+  const auto known = read_.find(use);
   if (known != read_.end()) return known->second;
-  Read& read = read_[index];
-  const JsonPath path = JsonPath() / "meshes" / index / "primitives";
-  const Json* primitives = document_.item("meshes", index).find("primitives");
+  Read& read = read_[use];
+  const JsonPath path = JsonPath() / "meshes" / use.mesh / "primitives";
+  const Json* primitives = document_.item("meshes", use.mesh).find("primitives");
   if (!primitives || !primitives->is_array()) {
     document_.mistakes().add(path, "must be a list");
     return read;
   }
-  std::vector<double> weights;
-  if (const Json* given = document_.item("meshes", index).find("weights"))
-    if (given->is_array())
-      weights = read_numbers(*given, JsonPath() / "meshes" / index / "weights",
-                             document_.mistakes(), given->size())
-                    .value_or(weights);
   for (std::size_t i = 0; i < primitives->size(); ++i) {
     if ((*primitives)[i].is_object())
-      add_primitive((*primitives)[i], path / i, i, weights, read);
+      add_primitive((*primitives)[i], path / i, i, use.weights, read);
     else
       document_.mistakes().add(path / i, "must be an object (" + found((*primitives)[i]) + ")");
   }
@@ -158,8 +190,7 @@ void GltfMeshes::add_primitive(const Json& primitive, const JsonPath& path, std:
   if (detail_ == MeshDetail::attributes) {
     MeshAttributes made = looks_.attributes_of(primitive, path, points->size(), used, triangles);
     // Normals are those of the shape before it is morphed.
-    if (std::ranges::any_of(weights, [](double weight) { return weight != 0; }))
-      made.normal_of.clear();
+    if (!weights.empty()) made.normal_of.clear();
     append(mesh.attributes, mesh.triangles.size(), made, triangles.size(), 0);
   }
   for (const GltfTriangle& t : triangles)
@@ -340,7 +371,8 @@ void GltfMeshes::add_shown(std::span<const std::size_t> nodes, const Affine<doub
                     std::to_string(most) + " nodes are below all of them");
     const Json& json = document_.item("nodes", at.node);
     if (const auto index = document_.index(json, path, "mesh", "meshes")) {
-      const MeshParts& shown = mesh(*index);
+      const GltfMeshUse use = gltf_mesh_use(document_, *index, at.node);
+      const MeshParts& shown = mesh(use);
       const auto name_of = [](const Json& named) {
         const Json* name = named.find("name");
         return name && name->is_string() ? name->get<std::string>() : std::string();
@@ -371,7 +403,7 @@ void GltfMeshes::add_shown(std::span<const std::size_t> nodes, const Affine<doub
           all.parts.push_back(std::move(part));
         }
         const Json& whole = document_.item("meshes", *index);
-        for (const auto& [primitive, corners] : read(*index).corners) {
+        for (const auto& [primitive, corners] : read(use).corners) {
           if (!looks || looks->parts.size() >= most_part_looks) continue;
           PartLook look{{name_of(json), name_of(whole)}, {}};
           if (const auto rgba =

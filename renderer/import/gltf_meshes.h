@@ -24,6 +24,18 @@ inline constexpr std::size_t most_gltf_visits = 100'000;
 /// Turns y up to z up.
 Affine<double> gltf_z_up();
 
+/// A mesh with the weights of its morph targets, by which its uses differ.
+struct GltfMeshUse {
+  std::size_t mesh = 0;
+  std::vector<double> weights = {};  ///< without the zeros at its end
+
+  auto operator<=>(const GltfMeshUse&) const = default;
+};
+
+/// A mesh with a node's weights, or its own if no node is given or this has none.
+GltfMeshUse gltf_mesh_use(GltfDocument& document, std::size_t mesh,
+                          std::optional<std::size_t> node = {});
+
 class GltfMeshes {
  public:
   GltfMeshes(GltfDocument& document, MeshSplit split, MeshDetail detail)
@@ -33,10 +45,10 @@ class GltfMeshes {
 
   /// The vertices that its triangles use, with one part a primitive (groups), one a connected
   /// piece (components), or none. Empty, and maybe mistakes, if there are none.
-  const MeshParts& mesh(std::size_t index);
+  const MeshParts& mesh(const GltfMeshUse& use);
 
   /// The primitive of each part of mesh(), if groups are requested.
-  const std::vector<std::size_t>& primitives_of_parts(std::size_t index);
+  const std::vector<std::size_t>& primitives_of_parts(const GltfMeshUse& use);
 
   /// Number of primitives that were points or lines.
   std::size_t left_out() const { return left_out_; }
@@ -52,7 +64,7 @@ class GltfMeshes {
     std::vector<std::size_t> primitives;
     std::vector<std::pair<std::size_t, std::size_t>> corners = {};  ///< by primitive that is shown
   };
-  const Read& read(std::size_t index);
+  const Read& read(const GltfMeshUse& use);
   void add_primitive(const Json& primitive, const JsonPath& path, std::size_t number,
                      const std::vector<double>& weights, Read& read);
   bool add_targets(const Json& primitive, const JsonPath& path, const std::vector<double>& weights,
@@ -63,7 +75,7 @@ class GltfMeshes {
   MeshSplit split_;
   MeshDetail detail_;
   GltfLooks looks_;
-  std::map<std::size_t, Read> read_;
+  std::map<GltfMeshUse, Read> read_;
   std::size_t vertices_ = 0;  ///< of all meshes
   std::size_t shown_ = 0;     ///< by all requested nodes
   std::size_t visits_ = 0, left_out_ = 0;
