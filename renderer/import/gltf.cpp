@@ -62,8 +62,8 @@ class GltfReader {
       model_.pass_over("extension " + printable(name, 60), "is not read");
     if (meshes_.left_out() > 0)
       model_.pass_over("primitives", "are points or lines", meshes_.left_out());
-    if (const std::size_t count = meshes_.looks().colours_left_out(); count > 0)
-      model_.pass_over("colours of vertices", "the material's texture is shown alone", count);
+    for (const auto& [why, count] : meshes_.looks().colours_left_out())
+      model_.pass_over("colours of vertices", why, count);
     if (model_.links.empty() && document_.mistakes().none())
       document_.mistakes().add(JsonPath() / "nodes", "must have nodes that are shown");
     library_.hand_over(model_);
@@ -243,13 +243,13 @@ MeshContent read_gltf_content(const std::filesystem::path& file, MeshSplit split
   MeshParts all;
   MeshLooks looks;
   std::vector<MeshMaterial> materials;
-  std::size_t colours_left_out = 0;
   if (document.root() && mistakes.none()) {
     GltfMeshes meshes(document, split, detail);
     const std::vector<std::size_t> roots = gltf_roots(document);
     if (mistakes.none()) meshes.add_shown(roots, gltf_z_up(), true, all, &looks);
     if (detail == MeshDetail::attributes) materials = meshes.looks().materials();
-    colours_left_out = meshes.looks().colours_left_out();
+    for (const auto& [why, count] : meshes.looks().colours_left_out())
+      looks.notes.push_back("colours of vertices: " + why);
   }
   if (!mistakes.none()) {
     const std::string first = mistakes.messages().front();
@@ -259,8 +259,6 @@ MeshContent read_gltf_content(const std::filesystem::path& file, MeshSplit split
   settle(all.attributes);
   if (detail == MeshDetail::vertices) all.triangles.clear();
   looks.files = document.files();
-  if (colours_left_out > 0)
-    looks.notes.push_back("colours of vertices: the material's texture is shown alone");
   for (const std::string& name : document.unread_extensions())
     looks.notes.push_back("extension " + printable(name, 60) + " is not read");
   return {std::move(all), std::move(looks), std::move(materials)};

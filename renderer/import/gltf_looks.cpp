@@ -102,7 +102,7 @@ void GltfLooks::add_colours(const Json& primitive, const JsonPath& path, std::si
                                                         std::to_string(count) + " (got " +
                                                         std::to_string(all_colours->size()) + ")");
   if (look.material.has_picture()) {
-    ++colours_left_out_;
+    ++colours_left_out_["the material's texture is shown alone"];
     return;
   }
   std::vector<Vec3<float>> colours;
@@ -114,7 +114,12 @@ void GltfLooks::add_colours(const Json& primitive, const JsonPath& path, std::si
     for (std::size_t i = 0; i < 3; ++i)
       material.rgba[i] =
           to_srgb(from_srgb(material.rgba[i]) * double{colours.front()[static_cast<int>(i)]});
+  } else if (triangles_of_colours_ + triangles.size() > most_triangles_of_colours) {
+    ++colours_left_out_["at most " + std::to_string(most_triangles_of_colours) +
+                        " triangles are shown with them"];
+    return;
   } else {
+    triangles_of_colours_ += triangles.size();
     material.picture.image = picture_of_colours(colours, triangles);
     made.uvs.clear();
     made.uv_of.clear();
