@@ -178,8 +178,9 @@ class GltfReader {
       const std::size_t primitive = splits_ == MeshSplit::groups ? of_part[i - before] : 0;
       if (primitives && primitive < primitives->size() && (*primitives)[primitive].is_object())
         model_.geoms[i].rgba =
-            gltf_colour(document_, (*primitives)[primitive],
-                        JsonPath() / "meshes" / use.mesh / "primitives" / primitive)
+            meshes_.looks()
+                .colour_of((*primitives)[primitive],
+                           JsonPath() / "meshes" / use.mesh / "primitives" / primitive)
                 .value_or(Rgba{0.7, 0.7, 0.7, 1});
     }
     return true;

@@ -130,6 +130,28 @@ void GltfLooks::add_colours(const Json& primitive, const JsonPath& path, std::si
   of_colours_.push_back(std::move(material));
 }
 
+std::optional<Rgba> GltfLooks::colour_of(const Json& primitive, const JsonPath& path) {
+  const auto material = document_.index(primitive, path, "material", "materials");
+  const Json* attributes = object_in(&primitive, "attributes");
+  const auto accessor =
+      attributes ? document_.index(*attributes, path / "attributes", "COLOR_0", "accessors")
+                 : std::nullopt;
+  if (!material && !accessor) return std::nullopt;
+  const MeshMaterial look = material ? all()[*material].material : MeshMaterial();
+  Rgba rgba = look.rgba;
+  if (!accessor || look.has_picture()) return rgba;
+  const auto [mean, is_new] = means_.try_emplace(*accessor, Vec3<double>::Ones());
+  if (is_new)
+    if (const auto colours = document_.colours(*accessor)) {
+      mean->second.setZero();
+      for (const Vec3<float>& colour : *colours)
+        mean->second += colour.cast<double>() / static_cast<double>(colours->size());
+    }
+  for (std::size_t i = 0; i < 3; ++i)
+    rgba[i] = to_srgb(from_srgb(rgba[i]) * mean->second[static_cast<int>(i)]);
+  return rgba;
+}
+
 MeshAttributes GltfLooks::attributes_of(const Json& primitive, const JsonPath& path,
                                         std::size_t count, std::span<const std::uint32_t> used,
                                         std::span<const MeshAttributes::Numbers> triangles) {

@@ -37,6 +37,10 @@ class GltfLooks {
   /// Number of primitives whose vertices' colours are left out, by the reason.
   const std::map<std::string, std::size_t>& colours_left_out() const { return colours_left_out_; }
 
+  /// One colour for a primitive: its material's times the mean of its vertices'. Nothing if it has
+  /// neither.
+  std::optional<Rgba> colour_of(const Json& primitive, const JsonPath& path);
+
   /// Attributes of a primitive's triangles, which are numbers into `used`; those are numbers of its
   /// `count` points. Mistakes where accessors are wrong.
   MeshAttributes attributes_of(const Json& primitive, const JsonPath& path, std::size_t count,
@@ -55,6 +59,7 @@ class GltfLooks {
   bool is_read_ = false;
   std::vector<GltfLook> all_;
   std::vector<MeshMaterial> of_colours_;
+  std::map<std::size_t, Vec3<double>> means_;  ///< of accessors of colours
   std::size_t triangles_of_colours_ = 0;
   std::map<std::string, std::size_t> colours_left_out_;
   std::map<std::size_t, std::shared_ptr<const std::string>> bytes_;  ///< of pictures in the file

@@ -5,7 +5,6 @@
 #include <array>
 #include <numeric>
 
-#include "renderer/image/colour.h"
 #include "renderer/import/mesh_library.h"
 #include "renderer/json/values.h"
 
@@ -53,44 +52,6 @@ Affine<double> gltf_z_up() {
   Affine<double> turn;
   turn.linear << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   return turn;
-}
-
-namespace {
-
-std::vector<double> weights_of(GltfDocument& document, const Json& object, const JsonPath& path) {
-  const Json* given = object.find("weights");
-  if (!given || !given->is_array()) return {};
-  return read_numbers(*given, path / "weights", document.mistakes(), given->size())
-      .value_or(std::vector<double>());
-}
-
-/// The largest number of morph targets of a mesh's primitives.
-std::size_t target_count(const Json& mesh) {
-  std::size_t most = 0;
-  const Json* primitives = mesh.find("primitives");
-  for (std::size_t i = 0; primitives && primitives->is_array() && i < primitives->size(); ++i) {
-    const Json& primitive = (*primitives)[i];
-    const Json* targets = primitive.is_object() ? primitive.find("targets") : nullptr;
-    if (targets && targets->is_array()) most = std::max(most, targets->size());
-  }
-  return most;
-}
-
-}  // namespace
-
-GltfMeshUse gltf_mesh_use(GltfDocument& document, std::size_t mesh,
-                          std::optional<std::size_t> node) {
-  const Json& json = document.item("meshes", mesh);
-  GltfMeshUse use{mesh};
-  const std::size_t most = target_count(json);
-  if (most == 0) return use;
-  const bool is_own = node && document.item("nodes", *node).find("weights");
-  use.weights =
-      is_own ? weights_of(document, document.item("nodes", *node), JsonPath() / "nodes" / *node)
-             : weights_of(document, json, JsonPath() / "meshes" / mesh);
-  use.weights.resize(std::min(use.weights.size(), most));
-  while (!use.weights.empty() && use.weights.back() == 0) use.weights.pop_back();
-  return use;
 }
 
 const MeshParts& GltfMeshes::mesh(const GltfMeshUse& use) {
@@ -331,23 +292,6 @@ std::vector<Affine<double>> gltf_instances(GltfDocument& document, std::size_t n
   return poses;
 }
 
-std::optional<Rgba> gltf_colour(GltfDocument& document, const Json& primitive,
-                                const JsonPath& path) {
-  const auto index = document.index(primitive, path, "material", "materials");
-  if (!index) return std::nullopt;
-  const Json* surface = document.item("materials", *index).find("pbrMetallicRoughness");
-  const Json* factor = surface && surface->is_object() ? surface->find("baseColorFactor") : nullptr;
-  if (!factor) return Rgba{1, 1, 1, 1};
-  const auto linear = read_numbers(
-      *factor, JsonPath() / "materials" / *index / "pbrMetallicRoughness" / "baseColorFactor",
-      document.mistakes(), 4, Range::zero_to_one);
-  if (!linear) return std::nullopt;
-  Rgba rgba;
-  for (std::size_t i = 0; i < 3; ++i) rgba[i] = to_srgb((*linear)[i]);
-  rgba[3] = (*linear)[3];
-  return rgba;
-}
-
 void GltfMeshes::add_shown(std::span<const std::size_t> nodes, const Affine<double>& pose,
                            bool with_own_pose, MeshParts& all, MeshLooks* looks) {
   struct Open {
@@ -407,8 +351,8 @@ void GltfMeshes::add_shown(std::span<const std::size_t> nodes, const Affine<doub
           if (!looks || looks->parts.size() >= most_part_looks) continue;
           PartLook look{{name_of(json), name_of(whole)}, {}};
           if (const auto rgba =
-                  gltf_colour(document_, whole.at("primitives")[primitive],
-                              JsonPath() / "meshes" / *index / "primitives" / primitive))
+                  looks_.colour_of(whole.at("primitives")[primitive],
+                                   JsonPath() / "meshes" / *index / "primitives" / primitive))
             look.colours[*rgba] = corners;
           looks->parts.push_back(std::move(look));
         }

@@ -10,6 +10,7 @@
 #include "core/math/affine.h"
 #include "renderer/import/gltf_document.h"
 #include "renderer/import/gltf_looks.h"
+#include "renderer/import/gltf_mesh_use.h"
 #include "renderer/import/mesh_looks.h"
 
 namespace minkray {
@@ -23,18 +24,6 @@ inline constexpr std::size_t most_gltf_visits = 100'000;
 
 /// Turns y up to z up.
 Affine<double> gltf_z_up();
-
-/// A mesh with the weights of its morph targets, by which its uses differ.
-struct GltfMeshUse {
-  std::size_t mesh = 0;
-  std::vector<double> weights = {};  ///< without the zeros at its end
-
-  auto operator<=>(const GltfMeshUse&) const = default;
-};
-
-/// A mesh with a node's weights, or its own if no node is given or this has none.
-GltfMeshUse gltf_mesh_use(GltfDocument& document, std::size_t mesh,
-                          std::optional<std::size_t> node = {});
 
 class GltfMeshes {
  public:
@@ -83,10 +72,6 @@ class GltfMeshes {
 
 /// The poses in which a node shows its mesh: several by EXT_mesh_gpu_instancing, else one.
 std::vector<Affine<double>> gltf_instances(GltfDocument& document, std::size_t node);
-
-/// The colour of a primitive's material; nothing if it has none, or one that is wrong.
-std::optional<Rgba> gltf_colour(GltfDocument& document, const Json& primitive,
-                                const JsonPath& path);
 
 /// Local pose of a node.
 Affine<double> gltf_pose(GltfDocument& document, std::size_t node);

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "renderer/image/colour.h"
 #include "renderer/light/mesh_point.h"
 #include "renderer/light/texture.h"
 #include "renderer/scene/summary.h"
@@ -125,6 +126,14 @@ TEST_F(MeshFolder, colours_of_vertices_that_are_all_the_same_are_a_material) {
   const Object& object = scene.objects.at(0);
   EXPECT_TRUE(object.look->attributes->uv_of.empty());
   EXPECT_LT((colour_at(scene, object, 0, {0, 0, 0}) - Colour(1, 0, 0)).norm(), 1e-12);
+}
+
+TEST_F(MeshFolder, hulls_have_the_mean_colour_of_vertices) {
+  ImportOptions options;
+  options.meshes = MeshChoice::hull;
+  const Model model = model_of(gltf_with("", "", "", R"(, "COLOR_0": 0)"), "m.gltf", options);
+  ASSERT_EQ(model.geoms.size(), 1u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(from_srgb(model.geoms[0].rgba[i]), 0.25, 1e-12);
 }
 
 TEST_F(MeshFolder, colours_of_vertices_must_be_as_many_as_these) {
