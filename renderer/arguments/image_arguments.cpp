@@ -94,9 +94,7 @@ void ImageArguments::add_to(const Verb& verb, const std::string& suffix) {
   preview.add_to(verb);
   verb.add_option("-r,--resolution", resolution, "Size in pixels, instead of the scene's")
       .takes("WxH");
-  verb.add_option("--camera-file", camera_file,
-                  "Lens and size of a calibrated camera (JSON), at the scene's camera")
-      .reads_file();
+  add_camera_file_option(verb, camera_file);
   verb.add_option("-s,--spp", samples, "Samples per pixel").between(1, 1 << 24).show_default();
   verb.add_option("-t,--threads", threads, "Threads; 0: one per core")
       .between(0, 1024)
@@ -125,6 +123,12 @@ Option add_scene_option(const Verb& verb, std::string& scene) {
   return verb.add_option("scene", scene, scene_argument())
       .required()
       .replace(scene_file)
+      .reads_file();
+}
+
+void add_camera_file_option(const Verb& verb, std::string& camera_file) {
+  verb.add_option("--camera-file", camera_file,
+                  "Lens and size of a calibrated camera (JSON), at the scene's camera")
       .reads_file();
 }
 

@@ -64,6 +64,9 @@ std::uint64_t parse_seed(const std::string& text);
 /// is required unless the returned option is changed.
 Option add_scene_option(const Verb& verb, std::string& scene);
 
+/// Adds --camera-file, the lens of the picture.
+void add_camera_file_option(const Verb& verb, std::string& camera_file);
+
 /// Adds -o, a list of image files. `otherwise` describes the default output; if it is empty, -o is
 /// required.
 void add_output_option(const Verb& verb, std::vector<std::string>& outputs,

@@ -27,6 +27,7 @@ void add_inspect(Parser& parser, ExitCode& exit_code) {
           .writes_file();
   verb.add_option("-r,--resolution", image.resolution, "Size in pixels, instead of the scene's")
       .takes("WxH");
+  add_camera_file_option(verb, image.camera_file);
   verb.add_option("-s,--spp", image.samples, "Samples per pixel of the picture")
       .between(1, 1 << 16)
       .show_default();

@@ -31,7 +31,8 @@ struct TraceVerbOptions {
   std::optional<std::string> svg;
   std::string precision = "double";
   std::string solver = "auto";
-  std::string resolution;  ///< empty: the scene's
+  std::string resolution;   ///< empty: the scene's
+  std::string camera_file;  ///< empty: the scene's lens
   bool json = false;
 };
 
@@ -75,6 +76,7 @@ void trace(const TraceVerbOptions& options) {
   picture.scene = options.scene;
   picture.import = options.import;
   picture.resolution = options.resolution;
+  picture.camera_file = options.camera_file;
   const Scene scene = picture.load_scene();
   const Resolution size = picture.render_options(scene).resolution;
   const int x = options.pixel[0], y = options.pixel[1];
@@ -150,6 +152,7 @@ void add_trace(Parser& parser, ExitCode&) {
   verb.add_option("-r,--resolution", options->resolution,
                   "Size of the picture in pixels (default: the scene's)")
       .takes("WxH");
+  add_camera_file_option(verb, options->camera_file);
   verb.add_option("--object", options->object, "The object's name; by default the one that is hit")
       .takes("NAME");
   verb.add_option("--precision", options->precision, "Numbers of the cast")

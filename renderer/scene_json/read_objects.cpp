@@ -56,10 +56,10 @@ void ObjectsReader::read_list(const Json& objects, const JsonPath& path, const F
 }
 
 void ObjectsReader::read_item(const Json& json, const JsonPath& path, const Frame& frame) {
-  if (!is_version_one() && json.is_object() && is_group(json))
-    read_group(json, path, frame);
-  else
+  if (!json.is_object() || !is_group(json))
     read_object(json, path, frame);
+  else if (!is_version_one())  // groups in version 1 are reported already
+    read_group(json, path, frame);
 }
 
 void ObjectsReader::read_group(const Json& json, const JsonPath& path, const Frame& frame) {

@@ -12,6 +12,7 @@
 #include "renderer/scene_json/read_split.h"
 #include "renderer/scene_json/read_visible_to.h"
 #include "renderer/scene_json/scene_json.h"
+#include "renderer/scene_json/version_one.h"
 
 namespace minkray {
 namespace {
@@ -96,14 +97,19 @@ Json keys_schema(bool has_intensity) {
   return {{"type", "array"}, {"items", std::move(key)}, {"minItems", 1}};
 }
 
-/// What version 1 asks for that later ones leave to defaults. Keys of later versions are refused
-/// when a file is read.
+/// What version 1 asks for that later ones leave to defaults, without the keys of later versions.
+/// Values of later versions (colours as text, rotations as objects) are refused when a file is
+/// read.
 Json version_one_schema() {
   Json schema;
   schema["required"] = {"camera", "lights", "materials", "objects"};
   schema["properties"]["camera"] = {{"required", {"position", "look_at"}}};
   schema["properties"]["objects"] = {{"items", {{"required", {"name", "material"}}}}};
-  schema["properties"]["include"] = false;
+  for (const auto& [of, in, key] : later_keys) {
+    Json& holder = of == LaterKey::Of::file ? schema : schema["properties"][in];
+    Json& keyed = of == LaterKey::Of::items ? holder["items"] : holder;
+    keyed["properties"][key] = false;
+  }
   return schema;
 }
 

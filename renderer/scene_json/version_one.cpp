@@ -35,29 +35,24 @@ void refuse_values(const Json& json, const JsonPath& path, Mistakes& mistakes) {
 }
 
 void refuse_key(const Json& json, std::string_view key, const JsonPath& path, Mistakes& mistakes) {
-  if (json.find(key))
+  if (json.is_object() && json.find(key))
     mistakes.add(path / key, std::string("unknown key (it is one of version 2") + advice);
-}
-
-void refuse_in_items(const Json& scene, std::string_view list,
-                     std::initializer_list<std::string_view> keys, Mistakes& mistakes) {
-  const Json* items = scene.find(list);
-  if (!items || !items->is_array()) return;
-  for (std::size_t i = 0; i < items->size(); ++i)
-    for (const std::string_view key : keys)
-      if ((*items)[i].is_object()) refuse_key((*items)[i], key, JsonPath() / list / i, mistakes);
 }
 
 }  // namespace
 
 void refuse_version_two(const Json& scene, Mistakes& mistakes) {
   if (!scene.is_object()) return;
-  refuse_key(scene, "include", JsonPath(), mistakes);
-  if (const Json* camera = scene.find("camera"); camera && camera->is_object())
-    refuse_key(*camera, "keys", JsonPath() / "camera", mistakes);
-  refuse_in_items(scene, "lights", {"keys"}, mistakes);
-  refuse_in_items(scene, "materials", {"keys"}, mistakes);
-  refuse_in_items(scene, "objects", {"include", "objects", "color", "pivot"}, mistakes);
+  for (const auto& [of, in, key] : later_keys) {
+    if (of == LaterKey::Of::file) {
+      refuse_key(scene, key, JsonPath(), mistakes);
+    } else if (const Json* holder = scene.find(in)) {
+      if (of == LaterKey::Of::object) refuse_key(*holder, key, JsonPath() / in, mistakes);
+      for (std::size_t i = 0; of == LaterKey::Of::items && holder->is_array() && i < holder->size();
+           ++i)
+        refuse_key((*holder)[i], key, JsonPath() / in / i, mistakes);
+    }
+  }
   refuse_values(scene, JsonPath(), mistakes);
 }
 

@@ -62,6 +62,8 @@ class GltfReader {
       model_.pass_over("extension " + printable(name, 60), "is not read");
     if (meshes_.left_out() > 0)
       model_.pass_over("primitives", "are points or lines", meshes_.left_out());
+    for (const auto& [why, count] : meshes_.looks().colours_left_out())
+      model_.pass_over("colours of vertices", why, count);
     if (model_.links.empty() && document_.mistakes().none())
       document_.mistakes().add(JsonPath() / "nodes", "must have nodes that are shown");
     library_.hand_over(model_);
@@ -110,41 +112,44 @@ class GltfReader {
           model_.pass_over("instances", "have a scale of zero: they are not shown");
           continue;
         }
-        if (!add_mesh_geoms(*mesh, geom, path / "mesh")) break;
+        if (!add_mesh_geoms(gltf_mesh_use(document_, *mesh, node), geom, path / "mesh")) break;
       }
-      if (const Json* weights = json.find("weights"); weights && weights->is_array())
-        model_.pass_over("weights of nodes", "a mesh has the same morph weights everywhere");
     }
     if (collider) add_collider(*collider, path / "extensions" / physics / "collider", link);
     if (physics_of(node, "trigger")) model_.pass_over("triggers", "are no bodies");
     if (physics_of(node, "joint")) model_.pass_over("joints", "nodes stand at rest");
   }
 
-  const MeshLibrary::Answer& parts_of(std::size_t mesh) {
-    const auto known = parts_.find(mesh);
+  const MeshLibrary::Answer& parts_of(const GltfMeshUse& use) {
+    const auto known = parts_.find(use);
     if (known != parts_.end()) return known->second;
-    const MeshParts& parts = meshes_.mesh(mesh);
-    MeshLibrary::Answer& answer = parts_[mesh];
+    const MeshParts& parts = meshes_.mesh(use);
+    MeshLibrary::Answer& answer = parts_[use];
     if (parts.vertices.empty()) return answer;
-    const Json* name = document_.item("meshes", mesh).find("name");
+    const Json* name = document_.item("meshes", use.mesh).find("name");
     answer = library_.made_of(
         parts, Vec3<double>::Ones(),
-        name && name->is_string() ? name->get<std::string>() : "mesh " + std::to_string(mesh));
+        name && name->is_string() ? name->get<std::string>() : "mesh " + std::to_string(use.mesh));
     answer.materials = materials();
     for (const std::string& note : notes_of(parts.attributes)) model_.pass_over("mesh", note);
     if (!answer.complaint.empty())
-      document_.mistakes().add(JsonPath() / "meshes" / mesh, answer.complaint);
+      document_.mistakes().add(JsonPath() / "meshes" / use.mesh, answer.complaint);
     return answer;
   }
 
-  /// All materials of the file, with their pictures; read once.
+  /// All materials that the primitives read so far have, with their pictures.
   const MeshLibrary::Materials& materials() {
-    if (are_read_) return materials_;
-    are_read_ = true;
+    std::vector<MeshMaterial> all = meshes_.looks().materials();
+    const std::size_t known = materials_ ? materials_->size() : 0;
+    if (all.size() == known) return materials_;
+    all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(known));
     std::vector<std::string> notes;
-    materials_ = library_.read_pictures(meshes_.looks().materials(), notes);
+    const MeshLibrary::Materials more = library_.read_pictures(std::move(all), notes);
     for (const std::string& note : notes) model_.pass_over("material", note);
-    return materials_;
+    auto joined = std::make_shared<std::vector<MeshMaterial>>();
+    if (materials_) *joined = *materials_;
+    joined->insert(joined->end(), more->begin(), more->end());
+    return materials_ = std::move(joined);
   }
 
   /// Colliders that the nodes below show; as one hull if requested.
@@ -160,21 +165,23 @@ class GltfReader {
   }
 
   /// `path` is where the mesh is named. False if there are too many.
-  bool add_mesh_geoms(std::size_t mesh, const ModelGeom& geom, const JsonPath& path) {
-    const MeshLibrary::Answer& answer = parts_of(mesh);
+  bool add_mesh_geoms(const GltfMeshUse& use, const ModelGeom& geom, const JsonPath& path) {
+    const MeshLibrary::Answer& answer = parts_of(use);
     const std::size_t before = model_.geoms.size();
     if (const auto complaint = add_parts(model_, answer, geom, Colouring::of_mesh)) {
       document_.mistakes().add(path, *complaint);
       return false;
     }
-    const Json* primitives = document_.item("meshes", mesh).find("primitives");
-    const std::vector<std::size_t>& of_part = meshes_.primitives_of_parts(mesh);
+    const Json* primitives = document_.item("meshes", use.mesh).find("primitives");
+    const std::vector<std::size_t>& of_part = meshes_.primitives_of_parts(use);
     for (std::size_t i = before; i < model_.geoms.size(); ++i) {
       const std::size_t primitive = splits_ == MeshSplit::groups ? of_part[i - before] : 0;
       if (primitives && primitive < primitives->size() && (*primitives)[primitive].is_object())
-        model_.geoms[i].rgba = gltf_colour(document_, (*primitives)[primitive],
-                                           JsonPath() / "meshes" / mesh / "primitives" / primitive)
-                                   .value_or(Rgba{0.7, 0.7, 0.7, 1});
+        model_.geoms[i].rgba =
+            meshes_.looks()
+                .colour_of((*primitives)[primitive],
+                           JsonPath() / "meshes" / use.mesh / "primitives" / primitive)
+                .value_or(Rgba{0.7, 0.7, 0.7, 1});
     }
     return true;
   }
@@ -197,7 +204,7 @@ class GltfReader {
       geom.pose = shape->pose;
       model_.geoms.push_back(std::move(geom));
     } else if (const auto mesh = document_.index(*geometry, at, "mesh", "meshes")) {
-      add_mesh_geoms(*mesh, geom, at / "mesh");
+      add_mesh_geoms(gltf_mesh_use(document_, *mesh), geom, at / "mesh");
     } else if (const auto node = document_.index(*geometry, at, "node", "nodes")) {
       const Json* convex = geometry->find("convexHull");
       const MeshLibrary::Answer& answer =
@@ -215,10 +222,10 @@ class GltfReader {
   MeshLibrary library_;
   MeshSplit splits_;
   Model model_;
-  std::map<std::size_t, MeshLibrary::Answer> parts_;
+  std::map<GltfMeshUse, MeshLibrary::Answer> parts_;
   std::map<std::pair<std::size_t, bool>, MeshLibrary::Answer> parts_of_nodes_;
   MeshLibrary::Materials materials_;
-  bool are_read_ = false, has_colliders_ = false;
+  bool has_colliders_ = false;
 };
 
 }  // namespace
@@ -242,6 +249,8 @@ MeshContent read_gltf_content(const std::filesystem::path& file, MeshSplit split
     const std::vector<std::size_t> roots = gltf_roots(document);
     if (mistakes.none()) meshes.add_shown(roots, gltf_z_up(), true, all, &looks);
     if (detail == MeshDetail::attributes) materials = meshes.looks().materials();
+    for (const auto& [why, count] : meshes.looks().colours_left_out())
+      looks.notes.push_back("colours of vertices: " + why);
   }
   if (!mistakes.none()) {
     const std::string first = mistakes.messages().front();

@@ -240,6 +240,25 @@ std::optional<std::vector<Vec3<double>>> GltfDocument::points(std::size_t access
   return points;
 }
 
+std::optional<std::vector<Vec3<float>>> GltfDocument::colours(std::size_t accessor) {
+  const Json* shape = item("accessors", accessor).find("type");
+  const std::size_t components = shape && *shape == "VEC4" ? 4 : 3;
+  const auto values = numbers(accessor, components);
+  if (!values) return std::nullopt;
+  std::vector<Vec3<float>> colours;
+  colours.reserve(values->size() / components);
+  for (std::size_t i = 0; i + components <= values->size(); i += components) {
+    const Vec3<double> colour((*values)[i], (*values)[i + 1], (*values)[i + 2]);
+    if (!colour.allFinite()) {
+      mistakes_.add(JsonPath() / "accessors" / accessor,
+                    "colour " + std::to_string(i / components) + " must be finite numbers");
+      return std::nullopt;
+    }
+    colours.push_back(colour.cwiseMax(0.0).cwiseMin(1.0).cast<float>());
+  }
+  return colours;
+}
+
 std::optional<std::vector<std::array<double, 2>>> GltfDocument::pairs(std::size_t accessor) {
   const auto values = numbers(accessor, 2);
   if (!values) return std::nullopt;

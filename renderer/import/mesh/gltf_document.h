@@ -42,6 +42,8 @@ class GltfDocument {
   /// Whole numbers of an accessor (SCALAR), each less than `limit`.
   std::optional<std::vector<std::uint32_t>> indices(std::size_t accessor, std::size_t limit);
 
+  /// Colours of an accessor (VEC3 or VEC4, whose opacity is left out), from 0 to 1.
+  std::optional<std::vector<Vec3<float>>> colours(std::size_t accessor);
   /// Pairs of numbers of an accessor (VEC2), which may be none.
   std::optional<std::vector<std::array<double, 2>>> pairs(std::size_t accessor);
 

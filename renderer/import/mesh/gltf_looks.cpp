@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "renderer/image/colour.h"
+#include "renderer/import/mesh/gltf_vertex_colours.h"
 #include "renderer/json/values.h"
 
 namespace minkray {
@@ -82,7 +83,73 @@ const std::vector<GltfLook>& GltfLooks::all() {
 std::vector<MeshMaterial> GltfLooks::materials() {
   std::vector<MeshMaterial> materials;
   for (const GltfLook& look : all()) materials.push_back(look.material);
+  materials.insert(materials.end(), of_colours_.begin(), of_colours_.end());
   return materials;
+}
+
+/// Makes a material of a primitive's own, if its vertices have colours, which multiply that of its
+/// material.
+void GltfLooks::add_colours(const Json& primitive, const JsonPath& path, std::size_t count,
+                            std::span<const std::uint32_t> used,
+                            const std::vector<MeshAttributes::Numbers>& triangles,
+                            const GltfLook& look, MeshAttributes& made) {
+  const JsonPath at = path / "attributes";
+  const auto accessor = document_.index(primitive.at("attributes"), at, "COLOR_0", "accessors");
+  const auto all_colours = accessor ? document_.colours(*accessor) : std::nullopt;
+  if (!all_colours || triangles.empty()) return;
+  if (all_colours->size() != count)
+    return document_.mistakes().add(at / "COLOR_0", "must have as many items as POSITION, " +
+                                                        std::to_string(count) + " (got " +
+                                                        std::to_string(all_colours->size()) + ")");
+  if (look.material.has_picture()) {
+    ++colours_left_out_["the material's texture is shown alone"];
+    return;
+  }
+  std::vector<Vec3<float>> colours;
+  for (const std::uint32_t i : used) colours.push_back((*all_colours)[i]);
+  MeshMaterial material;
+  material.rgba = look.material.rgba;
+  if (std::ranges::all_of(colours, [&](const auto& c) { return c == colours.front(); })) {
+    if (colours.front() == Vec3<float>::Ones()) return;
+    for (std::size_t i = 0; i < 3; ++i)
+      material.rgba[i] =
+          to_srgb(from_srgb(material.rgba[i]) * double{colours.front()[static_cast<int>(i)]});
+  } else if (triangles_of_colours_ + triangles.size() > most_triangles_of_colours) {
+    ++colours_left_out_["at most " + std::to_string(most_triangles_of_colours) +
+                        " triangles are shown with them"];
+    return;
+  } else {
+    triangles_of_colours_ += triangles.size();
+    material.picture.image = picture_of_colours(colours, triangles);
+    made.uvs.clear();
+    made.uv_of.clear();
+    add_colour_coordinates(triangles.size(), made);
+  }
+  made.material_of.assign(triangles.size(),
+                          static_cast<std::uint32_t>(all().size() + of_colours_.size()));
+  of_colours_.push_back(std::move(material));
+}
+
+std::optional<Rgba> GltfLooks::colour_of(const Json& primitive, const JsonPath& path) {
+  const auto material = document_.index(primitive, path, "material", "materials");
+  const Json* attributes = object_in(&primitive, "attributes");
+  const auto accessor =
+      attributes ? document_.index(*attributes, path / "attributes", "COLOR_0", "accessors")
+                 : std::nullopt;
+  if (!material && !accessor) return std::nullopt;
+  const MeshMaterial look = material ? all()[*material].material : MeshMaterial();
+  Rgba rgba = look.rgba;
+  if (!accessor || look.has_picture()) return rgba;
+  const auto [mean, is_new] = means_.try_emplace(*accessor, Vec3<double>::Ones());
+  if (is_new)
+    if (const auto colours = document_.colours(*accessor)) {
+      mean->second.setZero();
+      for (const Vec3<float>& colour : *colours)
+        mean->second += colour.cast<double>() / static_cast<double>(colours->size());
+    }
+  for (std::size_t i = 0; i < 3; ++i)
+    rgba[i] = to_srgb(from_srgb(rgba[i]) * mean->second[static_cast<int>(i)]);
+  return rgba;
 }
 
 MeshAttributes GltfLooks::attributes_of(const Json& primitive, const JsonPath& path,
@@ -123,6 +190,7 @@ MeshAttributes GltfLooks::attributes_of(const Json& primitive, const JsonPath& p
       made.uv_of = numbers;
     }
   }
+  add_colours(primitive, path, count, used, numbers, look, made);
   settle(made);
   return made;
 }

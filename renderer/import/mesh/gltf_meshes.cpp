@@ -55,33 +55,27 @@ Affine<double> gltf_z_up() {
   return turn;
 }
 
-const MeshParts& GltfMeshes::mesh(std::size_t index) {
-  return read(index).parts;
+const MeshParts& GltfMeshes::mesh(const GltfMeshUse& use) {
+  return read(use).parts;
 }
 
-const std::vector<std::size_t>& GltfMeshes::primitives_of_parts(std::size_t index) {
-  return read(index).primitives;
+const std::vector<std::size_t>& GltfMeshes::primitives_of_parts(const GltfMeshUse& use) {
+  return read(use).primitives;
 }
 
-const GltfMeshes::Read& GltfMeshes::read(std::size_t index) {
-  const auto known = read_.find(index);
+const GltfMeshes::Read& GltfMeshes::read(const GltfMeshUse& use) {
+  const auto known = read_.find(use);
   if (known != read_.end()) return known->second;
-  Read& read = read_[index];
-  const JsonPath path = JsonPath() / "meshes" / index / "primitives";
-  const Json* primitives = document_.item("meshes", index).find("primitives");
+  Read& read = read_[use];
+  const JsonPath path = JsonPath() / "meshes" / use.mesh / "primitives";
+  const Json* primitives = document_.item("meshes", use.mesh).find("primitives");
   if (!primitives || !primitives->is_array()) {
     document_.mistakes().add(path, "must be a list");
     return read;
   }
-  std::vector<double> weights;
-  if (const Json* given = document_.item("meshes", index).find("weights"))
-    if (given->is_array())
-      weights = read_numbers(*given, JsonPath() / "meshes" / index / "weights",
-                             document_.mistakes(), given->size())
-                    .value_or(weights);
   for (std::size_t i = 0; i < primitives->size(); ++i) {
     if ((*primitives)[i].is_object())
-      add_primitive((*primitives)[i], path / i, i, weights, read);
+      add_primitive((*primitives)[i], path / i, i, use.weights, read);
     else
       document_.mistakes().add(path / i, "must be an object (" + found((*primitives)[i]) + ")");
   }
@@ -158,8 +152,7 @@ void GltfMeshes::add_primitive(const Json& primitive, const JsonPath& path, std:
   if (detail_ == MeshDetail::attributes) {
     MeshAttributes made = looks_.attributes_of(primitive, path, points->size(), used, triangles);
     // Normals are those of the shape before it is morphed.
-    if (std::ranges::any_of(weights, [](double weight) { return weight != 0; }))
-      made.normal_of.clear();
+    if (!weights.empty()) made.normal_of.clear();
     append(mesh.attributes, mesh.triangles.size(), made, triangles.size(), 0);
   }
   for (const GltfTriangle& t : triangles)
@@ -300,23 +293,6 @@ std::vector<Affine<double>> gltf_instances(GltfDocument& document, std::size_t n
   return poses;
 }
 
-std::optional<Rgba> gltf_colour(GltfDocument& document, const Json& primitive,
-                                const JsonPath& path) {
-  const auto index = document.index(primitive, path, "material", "materials");
-  if (!index) return std::nullopt;
-  const Json* surface = document.item("materials", *index).find("pbrMetallicRoughness");
-  const Json* factor = surface && surface->is_object() ? surface->find("baseColorFactor") : nullptr;
-  if (!factor) return Rgba{1, 1, 1, 1};
-  const auto linear = read_numbers(
-      *factor, JsonPath() / "materials" / *index / "pbrMetallicRoughness" / "baseColorFactor",
-      document.mistakes(), 4, Range::zero_to_one);
-  if (!linear) return std::nullopt;
-  Rgba rgba;
-  for (std::size_t i = 0; i < 3; ++i) rgba[i] = to_srgb((*linear)[i]);
-  rgba[3] = (*linear)[3];
-  return rgba;
-}
-
 void GltfMeshes::add_shown(std::span<const std::size_t> nodes, const Affine<double>& pose,
                            bool with_own_pose, MeshParts& all, MeshLooks* looks) {
   struct Open {
@@ -340,7 +316,8 @@ void GltfMeshes::add_shown(std::span<const std::size_t> nodes, const Affine<doub
                     std::to_string(most) + " nodes are below all of them");
     const Json& json = document_.item("nodes", at.node);
     if (const auto index = document_.index(json, path, "mesh", "meshes")) {
-      const MeshParts& shown = mesh(*index);
+      const GltfMeshUse use = gltf_mesh_use(document_, *index, at.node);
+      const MeshParts& shown = mesh(use);
       const auto name_of = [](const Json& named) {
         const Json* name = named.find("name");
         return name && name->is_string() ? name->get<std::string>() : std::string();
@@ -371,12 +348,12 @@ void GltfMeshes::add_shown(std::span<const std::size_t> nodes, const Affine<doub
           all.parts.push_back(std::move(part));
         }
         const Json& whole = document_.item("meshes", *index);
-        for (const auto& [primitive, corners] : read(*index).corners) {
+        for (const auto& [primitive, corners] : read(use).corners) {
           if (!looks || looks->parts.size() >= most_part_looks) continue;
           PartLook look{{name_of(json), name_of(whole)}, {}};
           if (const auto rgba =
-                  gltf_colour(document_, whole.at("primitives")[primitive],
-                              JsonPath() / "meshes" / *index / "primitives" / primitive))
+                  looks_.colour_of(whole.at("primitives")[primitive],
+                                   JsonPath() / "meshes" / *index / "primitives" / primitive))
             look.colours[*rgba] = corners;
           looks->parts.push_back(std::move(look));
         }

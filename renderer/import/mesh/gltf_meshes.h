@@ -10,6 +10,7 @@
 #include "core/math/affine.h"
 #include "renderer/import/mesh/gltf_document.h"
 #include "renderer/import/mesh/gltf_looks.h"
+#include "renderer/import/mesh/gltf_mesh_use.h"
 #include "renderer/import/model/mesh_looks.h"
 
 namespace minkray {
@@ -33,10 +34,10 @@ class GltfMeshes {
 
   /// The vertices that its triangles use, with one part a primitive (groups), one a connected
   /// piece (components), or none. Empty, and maybe mistakes, if there are none.
-  const MeshParts& mesh(std::size_t index);
+  const MeshParts& mesh(const GltfMeshUse& use);
 
   /// The primitive of each part of mesh(), if groups are requested.
-  const std::vector<std::size_t>& primitives_of_parts(std::size_t index);
+  const std::vector<std::size_t>& primitives_of_parts(const GltfMeshUse& use);
 
   /// Number of primitives that were points or lines.
   std::size_t left_out() const { return left_out_; }
@@ -52,7 +53,7 @@ class GltfMeshes {
     std::vector<std::size_t> primitives;
     std::vector<std::pair<std::size_t, std::size_t>> corners = {};  ///< by primitive that is shown
   };
-  const Read& read(std::size_t index);
+  const Read& read(const GltfMeshUse& use);
   void add_primitive(const Json& primitive, const JsonPath& path, std::size_t number,
                      const std::vector<double>& weights, Read& read);
   bool add_targets(const Json& primitive, const JsonPath& path, const std::vector<double>& weights,
@@ -63,7 +64,7 @@ class GltfMeshes {
   MeshSplit split_;
   MeshDetail detail_;
   GltfLooks looks_;
-  std::map<std::size_t, Read> read_;
+  std::map<GltfMeshUse, Read> read_;
   std::size_t vertices_ = 0;  ///< of all meshes
   std::size_t shown_ = 0;     ///< by all requested nodes
   std::size_t visits_ = 0, left_out_ = 0;
@@ -71,10 +72,6 @@ class GltfMeshes {
 
 /// The poses in which a node shows its mesh: several by EXT_mesh_gpu_instancing, else one.
 std::vector<Affine<double>> gltf_instances(GltfDocument& document, std::size_t node);
-
-/// The colour of a primitive's material; nothing if it has none, or one that is wrong.
-std::optional<Rgba> gltf_colour(GltfDocument& document, const Json& primitive,
-                                const JsonPath& path);
 
 /// Local pose of a node.
 Affine<double> gltf_pose(GltfDocument& document, std::size_t node);

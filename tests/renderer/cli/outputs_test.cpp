@@ -46,6 +46,8 @@ std::vector<Command> writing_commands() {
   several.push_back({"others", "scene.json", "r.urdf scene.json -r 8x6 "});
   std::vector<Reading> pictures = several;
   pictures.push_back({"--camera-file", "camera.json", robot + "--camera-file camera.json "});
+  std::vector<Reading> single = scene;
+  single.push_back(pictures.back());
   return {
       {"render",
        with(pictures, "-s 1 -q"),
@@ -53,7 +55,7 @@ std::vector<Command> writing_commands() {
         {"--contact-sheet", {"sheet.png", " --frames 0..1 --output 'o#.png'"}}}},
       {"merge", {{"parts", "part.exr", "part.exr"}}, {{"--output", {"o.png"}}}},
       {"heatmap", with(pictures, "-q"), {{"--output", {"o.png"}}}},
-      {"inspect", with(several, "-s 1 -q"), {{"--output", {"o.html"}}}},
+      {"inspect", with(pictures, "-s 1 -q"), {{"--output", {"o.html"}}}},
       {"compare", with(scene, "--rays 10 --directions 20 -q"), {{"--output", {"o.png"}}}},
       {"scan",
        {{"scene", "r.urdf", "r.urdf --pattern spinning:2x4 -q"},
@@ -87,7 +89,7 @@ std::vector<Command> writing_commands() {
              {"--probe", "probe.json", robot + "--probe probe.json "}},
             "-q"),
        {{"--output", {"o.png"}}}},
-      {"trace", with(scene, "--pixel 1,1"), {{"--svg", {"o.svg"}}}},
+      {"trace", with(single, "--pixel 1,1"), {{"--svg", {"o.svg"}}}},
       {"distance-2d", {{"file", "pair.json", "pair.json"}}, {{"--output", {"o.svg"}}}},
       {"generate", {{"", "", "spheres -n 3"}}, {{"--output", {"o.json"}}}},
       {"import",

@@ -140,6 +140,14 @@ TEST_F(LooksOfGltf, textures_of_files_and_within_the_file_are_tinted_by_the_fact
   }
 }
 
+TEST_F(LooksOfGltf, colours_of_vertices_beside_a_texture_are_listed) {
+  const Imported imported = import(
+      "m.gltf", filled(gltf_square(R"("TEXCOORD_0": 2, "COLOR_0": 1)", R"("uri": "two.png")")));
+  EXPECT_TRUE(tells(*imported.model, "colours of vertices", "texture is shown alone"));
+  EXPECT_LT((colour_in(material_at_triangle(imported.scene, 0)) - Colour(0.25, 0, 0.5)).norm(),
+            1e-9);
+}
+
 TEST_F(LooksOfGltf, texture_transforms_move_coordinates) {
   const Scene scene =
       import("m.gltf",

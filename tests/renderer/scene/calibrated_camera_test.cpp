@@ -8,9 +8,11 @@
 #include <fstream>
 
 #include "renderer/base/errors.h"
+#include "renderer/json/json.h"
 #include "renderer/sensor/sensor_rays.h"
 #include "tests/support/program.h"
 #include "tests/support/random.h"
+#include "tests/support/source_files.h"
 
 namespace minkray {
 namespace {
@@ -146,6 +148,39 @@ TEST(CalibratedCameras, are_read_with_all_mistakes_told) {
       EXPECT_NE(text.find(part), std::string::npos) << text;
   }
   EXPECT_THROW(parse_calibrated_camera("{" + rest + R"(, "model": "ball"})", "k.json"), BadInput);
+}
+
+// The scene's own lens sees 20 degrees, the calibrated one more than 60 to each side.
+TEST(CalibratedCameras, trace_and_inspect_cast_their_rays) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "s.json") << R"({"version": 2,
+    "camera": {"position": [0, -5, 0], "look_at": [0, 0, 0], "fov_y_degrees": 20},
+    "objects": [{"name": "ahead", "shape": {"type": "sphere", "radius": 0.5}},
+                {"name": "aside", "shape": {"type": "sphere", "radius": 0.5},
+                 "transform": {"translate": [6, -1, 0]}}]})";
+  std::ofstream(folder / "k.json") << R"({"model": "fisheye", "fx": 20, "fy": 21, "cx": 31.5,
+    "cy": 23.25, "width": 64, "height": 48, "k1": -0.01})";
+  const std::string words = folder / "s.json" + " --camera-file " + folder / "k.json";
+  const Vec3<double> seen =
+      unit(*read_calibrated_camera(folder / "k.json").direction(51, 24));  // x right, y down
+  const ProgramOutcome traced = run_shell("$MINKRAY trace " + words + " --pixel 51,24 --json");
+  ASSERT_EQ(traced.exit_code, 0) << traced.err;
+  const Json json = Json::parse(traced.out);
+  const Vec3<double> in_world(seen.x(), seen.z(), -seen.y());
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(json.at("direction")[std::size_t(i)].get<double>(), in_world[i], 1e-15);
+  EXPECT_EQ(json.at("object").get<std::string>(), "aside");
+  EXPECT_EQ(json.at("status").get<std::string>(), "hit");
+  const ProgramOutcome beyond = run_shell("$MINKRAY trace " + words + " --pixel 64,24");
+  EXPECT_EQ(beyond.exit_code, 2);
+  EXPECT_NE(beyond.err.find("63,47"), std::string::npos) << beyond.err;
+
+  const std::string page = folder / "p.html";
+  const ProgramOutcome inspected = run_shell("$MINKRAY inspect " + words + " -s 1 -q -o " + page);
+  ASSERT_EQ(inspected.exit_code, 0) << inspected.err;
+  const std::string html = text_of_file(page);
+  EXPECT_NE(html.find("\"resolution\":[64,48]"), std::string::npos);
+  EXPECT_NE(html.find("\"names\":{\"1\":\"ahead\",\"2\":\"aside\"}"), std::string::npos);
 }
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include "core/shape/shape.h"
 #include "renderer/image/colour.h"
 #include "renderer/scene_json/scene_json.h"
+#include "renderer/scene_json/schema.h"
+#include "renderer/scene_json/version_one.h"
 #include "renderer/scene_json/write_scene.h"
 #include "tests/support/temporary_folder.h"
 
@@ -341,6 +343,38 @@ TEST_F(VersionTwo, mistakes_are_told_with_their_files_and_places) {
   for (const auto& [text, expected] : cases) {
     const std::string told = mistakes_of(text);
     EXPECT_EQ(told.substr(0, expected.size()), expected) << text << "\n" << told;
+  }
+}
+
+TEST_F(VersionTwo, its_keys_in_files_of_version_1_are_told_and_not_in_its_schema) {
+  const Json schema = scene_schema();
+  for (const auto& [of, in, key] : later_keys) {
+    Json scene = Json::parse(
+        R"({"version": 1, "camera": {"position": [0, -5, 1], "look_at": [0, 0, 0]},
+            "lights": [{"type": "point", "position": [0, 0, 9]}],
+            "materials": [{"name": "m", "type": "lambert", "color": [1, 1, 1]}],
+            "objects": [{"name": "o", "material": "m", )" +
+        ball + "}]}");
+    EXPECT_EQ(mistakes_of(scene.dump()), "");
+    const bool is_item = of == LaterKey::Of::items;
+    Json item = is_item ? scene.at(in)[0] : in.empty() ? scene : scene.at(in);
+    item[key] = Json::array();
+    const std::string name(key);
+    std::string place = "/" + name;
+    if (in.empty())
+      scene = item;
+    else if (is_item)
+      scene[in] = Json::array({item});
+    else
+      scene[in] = item;
+    if (!in.empty()) place = "/" + std::string(in) + (is_item ? "/0" : "") + place;
+    EXPECT_EQ(mistakes_of(scene.dump()),
+              "scene.json: " + place +
+                  ": unknown key (it is one of version 2; write \"version\": 2 for it)");
+    const Json* holder = &schema.at("then");
+    if (!in.empty()) holder = &holder->at("properties").at(in);
+    if (is_item) holder = &holder->at("items");
+    EXPECT_EQ(holder->at("properties").at(key), Json(false)) << place;
   }
 }
 
