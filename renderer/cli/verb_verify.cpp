@@ -107,7 +107,7 @@ void write_outputs(const VerifyOptions& options, const Judged& judged, const Ver
       try {
         const Provable proof =
             provable(verdict, plan.path, cell.cell.bodies, cell.cell.pairs, options.referee);
-        write_text(file, proof_text(proof.verdict, plan.path, proof.bodies, proof.pairs, inputs));
+        write_text(file, proof_text(proof, plan.path, inputs));
       } catch (const BadInput& error) {
         // Other verdicts have an exit code of their own.
         if (verdict.status == MotionStatus::free) throw;
@@ -165,8 +165,8 @@ void serve(const VerifyOptions& options, const VerifyCell& cell) {
     judge(passing, cell, options, [&] {
       // A line is a plan itself, or the quoted name of a file.
       const std::string& line = passing.text;
-      return line.front() == '"' ? load_plan(Json::parse(line).text(), cell)
-                                 : parse_plan(line, passing.name, cell);
+      return line[line.find_first_not_of(" \t")] == '"' ? load_plan(Json::parse(line).text(), cell)
+                                                        : parse_plan(line, passing.name, cell);
     });
   };
   const auto write_error = [](const std::string& name, const std::exception& error) {

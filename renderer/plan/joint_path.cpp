@@ -138,7 +138,12 @@ Trajectory read_table(const std::string& file, Model& model,
                       const std::vector<std::string>& columns, Mistakes& mistakes) {
   if (ends_with_any(file, {".npy", ".NPY"})) return read_npy_rows(file, model, columns, mistakes);
   Trajectory trajectory;
-  trajectory.rows = read_joint_rows(file, model, mistakes, "--trajectory", 1);
+  Mistakes of_file("");
+  trajectory.rows = read_joint_rows(file, model, of_file, "", 1);
+  // Each message is ": : FILE: TEXT".
+  const std::size_t begin = printable(file).size() + 6;
+  for (const std::string& message : of_file.messages())
+    mistakes.add(std::string_view(message).substr(std::min(begin, message.size())));
   std::size_t number = 0;
   trajectory.has_times = std::ranges::any_of(trajectory.rows, [&](const JointRow& row) {
     return row.time != static_cast<double>(number++);

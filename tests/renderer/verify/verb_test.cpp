@@ -304,6 +304,15 @@ TEST_F(Proofs, are_of_the_files_that_were_verified) {
   EXPECT_NE(outcome.out.find("past.yaml: was changed"), std::string::npos) << outcome.out;
 }
 
+TEST_F(Proofs, that_cannot_be_read_are_not_wrong) {
+  EXPECT_EQ(check("none.json").exit_code, 3);
+  EXPECT_EQ(check(".").exit_code, 3);
+  EXPECT_EQ(check("").exit_code, 2);
+  EXPECT_EQ(check("past.yaml").exit_code, 1);
+  std::ofstream(folder_ / "list.json") << R"([1e999,"sha256":")" << std::string(64, '0') << "\"}\n";
+  EXPECT_EQ(check("list.json").exit_code, 1);
+}
+
 TEST_F(Proofs, with_a_changed_digit_are_refused_unless_they_are_true) {
   ASSERT_EQ(verify(folder_, "--trajectory rates.yaml -o proof.json").exit_code, 0);
   const ProgramOutcome outcome =
