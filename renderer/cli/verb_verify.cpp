@@ -116,8 +116,10 @@ void write_outputs(const VerifyOptions& options, const Judged& judged, const Ver
     } else if (is_page(file)) {
       WorstMoment worst = worst_moment(verdict);
       if (!worst.exists) worst.time = plan.path.times.front();
-      write_text(file, motion_page(cell.cell, plan.path,
-                                   verdict_json(name, verdict, plan, cell.cell), text, worst.time));
+      ShownMotion shown{verdict_json(name, verdict, plan, cell.cell), text, worst.time,
+                        plan.trajectory.has_times};
+      if (worst.exists) shown.view = worst_view(verdict, plan, cell.cell);
+      write_text(file, motion_page(cell.cell, plan.path, shown));
     } else {
       const Image image = worst_picture(verdict, plan, cell.cell, title_of(text), options.samples);
       write_file(file, encode_image(image, file));

@@ -9,6 +9,7 @@
 #include "core/derived/sandwich.h"
 #include "renderer/import/mesh_hull.h"
 #include "renderer/import/orientation.h"
+#include "renderer/json/number_json.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {
@@ -113,11 +114,10 @@ std::vector<double> moments_of(const JointPath& path, double worst) {
 
 }  // namespace
 
-std::string motion_page(const Workcell& cell, const JointPath& path, const Json& verdict_json,
-                        const std::string& text, double worst) {
+std::string motion_page(const Workcell& cell, const JointPath& path, const ShownMotion& shown) {
   Json names = Json::array(), moments = Json::array(), poses = Json::array();
   for (const ClearanceBody& body : cell.bodies) names.push_back(printable(body.name));
-  for (const double time : moments_of(path, worst)) {
+  for (const double time : moments_of(path, shown.worst)) {
     moments.push_back(time);
     Json links = Json::array();
     for (const Affine<double>& pose : link_poses(path.posed_at(time))) {
@@ -127,13 +127,11 @@ std::string motion_page(const Workcell& cell, const JointPath& path, const Json&
     }
     poses.push_back(std::move(links));
   }
-  const Json motion = {{"bodies", bodies_json(cell)},
-                       {"names", std::move(names)},
-                       {"times", std::move(moments)},
-                       {"poses", std::move(poses)},
-                       {"verdict", verdict_json},
-                       {"text", text},
-                       {"worst", worst}};
+  const Json motion = {{"bodies", bodies_json(cell)},   {"names", std::move(names)},
+                       {"times", std::move(moments)},   {"poses", std::move(poses)},
+                       {"verdict", shown.verdict},      {"text", shown.text},
+                       {"worst", shown.worst},          {"has_times", shown.has_times},
+                       {"view", point_json(shown.view)}};
   std::string data = motion.dump();
   // Text must not end the enclosing script.
   for (std::size_t at = 0; (at = data.find('<', at)) != std::string::npos;)

@@ -179,6 +179,8 @@ class TrajectoryReader {
                                               "; got " + std::to_string(points.size()) + ")");
     for (std::size_t i = 0; i < points.size(); ++i) {
       const JsonPath point = at / "points" / i;
+      if (i == 0 && !list_of(points[i], "velocities", point, mistakes_).empty())
+        trajectory_.notes.push_back(at.text() + ": velocities are ignored: poses go straight");
       check_fields(points[i], Message::poses_trajectory_point, point, mistakes_);
       JointValues values;
       const Json& transforms = list_of(points[i], "transforms", point, mistakes_);

@@ -131,6 +131,31 @@ TEST_F(OddInputs, quaternions_of_any_length_turn) {
   EXPECT_NEAR(lower("[0, 0, 0, 0]"), as_it_is, 1e-12);
 }
 
+/// The angle of a pose is between -pi and pi. A base that turned on past pi was taken to go back
+/// all the way round, and velocities of the arm's joints made no difference to that.
+TEST_F(OddInputs, planar_joints_go_the_shorter_way_round) {
+  write("r.srdf",
+        R"(<robot name="r"><virtual_joint name="roam" type="planar" child_link="base"/></robot>)");
+  write("ahead.yaml", scene("{id: post, primitives: [{type: sphere, dimensions: [0.2]}], "
+                            "primitive_poses: [{position: [1.2, 0, 0]}]}"));
+  write("odd.yaml", R"(joint_trajectory:
+  joint_names: [turn]
+  points: [{positions: [0], velocities: [0], time_from_start: 0},
+           {positions: [0], velocities: [0], time_from_start: 1}]
+multi_dof_joint_trajectory:
+  joint_names: [roam]
+  points:
+    - {transforms: [{translation: [0, 0, 0], rotation: [0, 0, 0.99, 0.14]}], velocities: [{}]}
+    - {transforms: [{translation: [0, 0, 0], rotation: [0, 0, 0.99, -0.14]}]}
+)");
+  const ProgramOutcome outcome = verify("--srdf r.srdf --scene ahead.yaml --trajectory odd.yaml");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.err.find("\"roam\" turns by more than half a turn in 1 step"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("velocities are ignored"), std::string::npos) << outcome.err;
+}
+
 /// With a padding of NaN every motion was free.
 TEST_F(OddInputs, paddings_are_lengths) {
   const std::string words = "--scene scene.yaml --trajectory plan.yaml --padding ";
