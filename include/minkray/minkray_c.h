@@ -555,8 +555,8 @@ typedef struct minkray_verdict_options {
   int32_t threads;        /* 0: one per core */
   /* Read only if `size` covers them. */
   const double* accelerations; /* or NULL; as `rates`, which they need: the second derivatives */
-  const char* proof;           /* or NULL; file for a proof of what is free or collides, which
-                                * minkray-check confirms. It has the frame of the robot's pose */
+  const char* proof;           /* or NULL; file for a proof, in the frame of the robot's pose, that
+                                * minkray-check confirms */
 } minkray_verdict_options;
 
 typedef struct minkray_verdict {
@@ -574,8 +574,8 @@ typedef struct minkray_verdict {
 
 /* Judges a robot's motion by rows as in minkray_scene_clearance. `rates` (or NULL) are as many
  * numbers, the derivatives of the joints' values by the row: from row to row joints then move as
- * cubics, with accelerations as quintics, except quaternions. Without a possible proof of the
- * verdict returns MINKRAY_BAD_INPUT if one was requested; of an undecided motion none is written. */
+ * cubics, with accelerations as quintics, except quaternions. Returns MINKRAY_BAD_INPUT if a proof
+ * was requested that is impossible; for an undecided motion none is written. */
 MINKRAY_API int minkray_scene_verify(minkray_scene scene, uint32_t group, const double* path,
                                      const double* rates, size_t rows, size_t numbers,
                                      const minkray_verdict_options* options,

@@ -42,7 +42,7 @@ class Enclosures : public ::testing::Test {
                "transform": {"translate": [3, 0, 0]}}]})";
   }
 
-  /// Verifies a motion from x to x, and returns what the checker says of its proof.
+  /// Verifies a motion along x; returns the checker's output for its proof.
   std::string checked(const std::string& robot, const std::string& from, const std::string& to) {
     std::ofstream(folder_ / "plan.json") << R"({"joint_names": ["x"], "points": [{"positions": [)" +
                                                 from + R"(]}, {"positions": [)" + to + "]}]}";
@@ -89,7 +89,7 @@ TEST_F(Enclosures, a_body_that_is_within_all_the_time_is_wound_around) {
   }
 }
 
-/// The same proof of a body elsewhere, of an open surface, and of a surface taken for its hull.
+/// Proofs of a body elsewhere, of an open surface, and of a surface as its hull.
 TEST_F(Enclosures, changed_proofs_are_refused) {
   checked("ball", "2.5", "3.5");
   const std::string text = read_file(folder_ / "proof.json");

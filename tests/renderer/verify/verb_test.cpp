@@ -251,9 +251,9 @@ TEST(VerifyVerb, pages_show_meshes) {
 TEST(VerifyVerb, pictures_show_the_body_that_hits) {
   const TemporaryFolder folder;
   write_swing(folder);
-  for (const std::string side : {"1.58", "-1.58"}) {
+  for (const std::string side : {"1.55", "-1.55"}) {
     std::ofstream(folder / "wall.yaml")
-        << "world: {collision_objects: [{id: wall, primitives: [{type: box, dimensions: [4, 0.1, "
+        << "world: {collision_objects: [{id: wall, primitives: [{type: box, dimensions: [4, 0.02, "
            "4]}], primitive_poses: [{position: [0, " +
                side + ", 0]}]}]}\n";
     std::ofstream(folder / "into.yaml")
