@@ -79,7 +79,7 @@ void add_core(const ShapeCore& core, const std::string& name, Json& json) {
     case CoreKind::other:
       throw BadInput(
           "proof: the body \"" + printable(name, 100) +
-          "\" has a shape that proof files do not support; verify without -o PROOF.json");
+          "\" has a shape that proof files do not support; it is verified without a proof");
   }
 }
 

@@ -26,7 +26,7 @@ constexpr double share = 0.5;
 
 [[noreturn]] void no_proof(const ClearanceBody& a, const ClearanceBody& b, const char* why) {
   throw BadInput("proof: " + printable(a.name, 100) + " and " + printable(b.name, 100) + " " + why +
-                 "; --meshes hull uses hulls, and without -o PROOF.json they are verified anyway");
+                 "; --meshes hull uses hulls, and without a proof they are verified anyway");
 }
 
 /// The body with these triangles of its mesh only.

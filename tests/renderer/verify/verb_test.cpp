@@ -359,6 +359,15 @@ TEST_F(Proofs, that_cannot_be_read_are_not_wrong) {
   EXPECT_EQ(check("past.yaml").exit_code, 1);
   std::ofstream(folder_ / "list.json") << R"([1e999,"sha256":")" << std::string(64, '0') << "\"}\n";
   EXPECT_EQ(check("list.json").exit_code, 1);
+  // A name that is a number was the program's own output, which was read and closed.
+  ASSERT_EQ(verify(folder_, "--trajectory past.yaml -o proof.json").exit_code, 0);
+  const ProgramOutcome output = run_shell("cd '" + folder_ / "" + "' && " + python_ + R"( -c '
+import hashlib, re
+text = open("proof.json").read()
+text = re.sub("\"name\":\"[^\"]*\",\"sha256\"", "\"name\":1,\"sha256\"", text[:text.rindex(",\"sha256")])
+print(text + ",\"sha256\":\"" + hashlib.sha256(text.encode()).hexdigest() + "\"}")' > named.json)");
+  ASSERT_EQ(output.exit_code, 0) << output.err;
+  EXPECT_EQ(check("named.json").out, "named.json: does not hold: files: must have names\n");
 }
 
 TEST_F(Proofs, with_a_changed_digit_are_refused_unless_they_are_true) {
