@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -299,39 +298,6 @@ TEST(LibraryScene, motions_are_judged) {
   EXPECT_EQ(quintic.status, mk::motion_free);
   EXPECT_NEAR(quintic.upper, 0.25, 0.003);
   EXPECT_THROW(both.scene.verify(both.robot, there, 2, {}, 0, pushed), mk::Error);
-}
-
-TEST(LibraryScene, verdicts_have_proofs) {
-  BallAndParticle both;
-  const std::vector<double> near = {0, 3}, through = {0, 9};
-  for (const auto& [path, status] : {std::pair(near, "free"), {through, "collides"}}) {
-    const std::string file = both.folder / "proof.json";
-    both.scene.verify(both.robot, path, 2, {}, 0, {}, file);
-    std::ifstream stream(file);
-    const std::string text((std::istreambuf_iterator<char>(stream)), {});
-    EXPECT_NE(text.find(std::string("\"status\":\"") + status + '"'), std::string::npos) << text;
-    EXPECT_NE(text.find("\"sha256\":"), std::string::npos);
-  }
-  const std::string nowhere = both.folder / "none/proof.json";
-  EXPECT_THROW(both.scene.verify(both.robot, near, 2, {}, 0, {}, nowhere), mk::Error);
-}
-
-/// Programs that were compiled before the options had more members.
-TEST(LibraryScene, options_of_verdicts_may_end_earlier) {
-  BallAndParticle both;
-  const double path[] = {0, 3};
-  minkray_verdict_options options = {};
-  options.size = offsetof(minkray_verdict_options, accelerations);
-  options.proof = "/never/read";
-  minkray_verdict verdict = {};
-  EXPECT_EQ(minkray_scene_verify(both.scene.handle(), both.robot.number(), path, nullptr, 2, 1,
-                                 &options, &verdict),
-            MINKRAY_OK);
-  EXPECT_EQ(verdict.status, MINKRAY_MOTION_FREE);
-  options.size -= 1;
-  EXPECT_EQ(minkray_scene_verify(both.scene.handle(), both.robot.number(), path, nullptr, 2, 1,
-                                 &options, &verdict),
-            MINKRAY_WRONG_USE);
 }
 
 /// The pose was taken, and nothing moved.
