@@ -889,15 +889,28 @@ class Scene {
   }
 
   /// Judges a robot's motion through rows of joints' values: free at all times, or which pair
-  /// collides. With rates, as many numbers, joints go as cubics; see minkray_scene_verify.
+  /// collides. With rates, as many numbers, joints go as cubics, and with accelerations as
+  /// quintics. `proof` names a file for minkray-check; see minkray_scene_verify.
   Verdict verify(const Group& robot, View<const double> path, std::size_t rows,
-                 View<const double> rates = {}, double margin = 0) const {
+                 View<const double> rates = {}, double margin = 0,
+                 View<const double> accelerations = {}, Text proof = {}) const {
     constexpr const char* function = "minkray::Scene::verify";
     const std::size_t numbers = rows > 0 ? path.size() / rows : 0;
     detail::check_sizes(function, "path", path.size(), "numbers in its rows", rows * numbers);
     if (rates.size() > 0)
       detail::check_sizes(function, "rates", rates.size(), "numbers in the path", path.size());
-    const minkray_verdict_options options = {sizeof options, 0, margin, 0, 0, 0};
+    if (accelerations.size() > 0)
+      detail::check_sizes(function, "accelerations", accelerations.size(), "numbers in the path",
+                          path.size());
+    const minkray_verdict_options options = {
+        sizeof options,
+        0,
+        margin,
+        0,
+        0,
+        0,
+        accelerations.size() > 0 ? accelerations.data() : nullptr,
+        proof.c_str()};
     Verdict verdict;
     detail::check(minkray_scene_verify(handle_, robot.number(), path.data(),
                                        rates.size() > 0 ? rates.data() : nullptr, rows, numbers,

@@ -553,6 +553,10 @@ typedef struct minkray_verdict_options {
   size_t budget;          /* distances of a pair in a step; 0: 4000 */
   int32_t only_obstacles; /* 1: not of the robot's links to each other */
   int32_t threads;        /* 0: one per core */
+  /* Read only if `size` covers them. */
+  const double* accelerations; /* or NULL; as `rates`, which they need: the second derivatives */
+  const char* proof;           /* or NULL; file for a proof, in the frame of the robot's pose, that
+                                * minkray-check confirms */
 } minkray_verdict_options;
 
 typedef struct minkray_verdict {
@@ -570,7 +574,8 @@ typedef struct minkray_verdict {
 
 /* Judges a robot's motion by rows as in minkray_scene_clearance. `rates` (or NULL) are as many
  * numbers, the derivatives of the joints' values by the row: from row to row joints then move as
- * cubics, except quaternions. */
+ * cubics, with accelerations as quintics, except quaternions. Returns MINKRAY_BAD_INPUT if a proof
+ * was requested that is impossible; for an undecided motion none is written. */
 MINKRAY_API int minkray_scene_verify(minkray_scene scene, uint32_t group, const double* path,
                                      const double* rates, size_t rows, size_t numbers,
                                      const minkray_verdict_options* options,

@@ -16,20 +16,20 @@ namespace {
 
 const Shape<double> nothing = Point<double>();
 
-bool is_rigid(const Mat3<double>& linear) {
+bool is_rotation(const Mat3<double>& linear) {
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
   return (linear * linear.transpose() - Mat3<double>::Identity()).cwiseAbs().maxCoeff() <=
              rounding &&
          linear.determinant() > 0;
 }
 
-/// A map that is not rigid becomes part of the mesh.
+/// A map that is no rotation, but for a shift, becomes part of the mesh.
 ClearanceBody body_of(const std::string& name, const std::string& link, int link_index,
                       std::shared_ptr<const TriangleMesh> mesh, const Affine<double>& map) {
   ClearanceBody body{name, link, link_index, ContactShape(nothing)};
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
   double loss = 0;
-  if (is_rigid(map.linear)) {
+  if (is_rotation(map.linear)) {
     body.linear = map.linear;
     body.mesh = std::move(mesh);
   } else {

@@ -14,9 +14,9 @@ namespace minkray {
 namespace {
 
 /// Two bodies during one step, in the frame that what they hang on has in common.
-class StepPair : public MovingPair {
+class MovingBodies : public MovingPair {
  public:
-  StepPair(const ClearanceBody& a, const ClearanceBody& b, StepMotion& motion)
+  MovingBodies(const ClearanceBody& a, const ClearanceBody& b, StepMotion& motion)
       : a_(a), b_(b), motion_(motion) {
     const bool is_in_world = a.plane || b.plane;
     frame_ = is_in_world ? -1 : motion.common_ancestor(a.link_index, b.link_index);
@@ -183,7 +183,7 @@ class Search {
     StepMotion motion(path_, is_last ? row - 1 : row);
     Closest least;
     for (const BodyPair& pair : pairs_) {
-      const StepPair step(bodies_[pair.a], bodies_[pair.b], motion);
+      const MovingBodies step(bodies_[pair.a], bodies_[pair.b], motion);
       const double s = is_last ? 1 : 0;
       const SignedDistance found = step.at(s, least.upper);
       if (found.upper < least.upper) keep(least, pair, found, step, motion, s);
@@ -192,7 +192,7 @@ class Search {
   }
 
   static void keep(Closest& closest, const BodyPair& pair, const SignedDistance& found,
-                   const StepPair& moving, const StepMotion& motion, double s) {
+                   const MovingBodies& moving, const StepMotion& motion, double s) {
     closest.upper = found.upper;
     closest.time = motion.time_at(s);
     closest.a = pair.a;
@@ -210,7 +210,7 @@ class Search {
     how.gap = least_gap_;
     how.relative_gap = options_.tolerance;
     for (const BodyPair& pair : pairs_) {
-      const StepPair moving(bodies_[pair.a], bodies_[pair.b], motion);
+      const MovingBodies moving(bodies_[pair.a], bodies_[pair.b], motion);
       if (!moving.is_within_numbers()) {
         closest.lower = -std::numeric_limits<double>::infinity();
         closest.is_settled = false;

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <iostream>
 #include <sstream>
 #include <stdexcept>
@@ -30,7 +31,16 @@ Option Option::between(int least, int most) const {
 }
 
 Option Option::between(double least, double most) const {
-  option_->check(CLI::Range(least, most));
+  const CLI::Validator inside = CLI::Range(least, most);
+  CLI::Validator range = inside;
+  // NaN is neither less than one end nor greater than the other.
+  range.operation([inside](const std::string& text) {
+    double number = 0;
+    if (CLI::detail::lexical_cast(text, number) && std::isnan(number))
+      return std::string("must be a number (got nan)");
+    return inside(text);
+  });
+  option_->check(range);
   return *this;
 }
 

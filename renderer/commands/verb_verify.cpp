@@ -107,7 +107,7 @@ void write_outputs(const VerifyOptions& options, const Judged& judged, const Ver
       try {
         const Provable proof =
             provable(verdict, plan.path, cell.cell.bodies, cell.cell.pairs, options.referee);
-        write_text(file, proof_text(proof.verdict, plan.path, proof.bodies, proof.pairs, inputs));
+        write_text(file, proof_text(proof, plan.path, inputs));
       } catch (const BadInput& error) {
         // Other verdicts have an exit code of their own.
         if (verdict.status == MotionStatus::free) throw;
@@ -116,8 +116,10 @@ void write_outputs(const VerifyOptions& options, const Judged& judged, const Ver
     } else if (is_page(file)) {
       WorstMoment worst = worst_moment(verdict);
       if (!worst.exists) worst.time = plan.path.times.front();
-      write_text(file, motion_page(cell.cell, plan.path,
-                                   verdict_json(name, verdict, plan, cell.cell), text, worst.time));
+      ShownMotion shown{verdict_json(name, verdict, plan, cell.cell), text, worst.time,
+                        plan.trajectory.has_times};
+      if (worst.exists) shown.view = worst_view(verdict, plan, cell.cell);
+      write_text(file, motion_page(cell.cell, plan.path, shown));
     } else {
       const Image image = worst_picture(verdict, plan, cell.cell, title_of(text), options.samples);
       write_file(file, encode_image(image, file));
@@ -165,8 +167,8 @@ void serve(const VerifyOptions& options, const VerifyCell& cell) {
     judge(passing, cell, options, [&] {
       // A line is a plan itself, or the quoted name of a file.
       const std::string& line = passing.text;
-      return line.front() == '"' ? load_plan(Json::parse(line).text(), cell)
-                                 : parse_plan(line, passing.name, cell);
+      return line[line.find_first_not_of(" \t")] == '"' ? load_plan(Json::parse(line).text(), cell)
+                                                        : parse_plan(line, passing.name, cell);
     });
   };
   const auto write_error = [](const std::string& name, const std::exception& error) {

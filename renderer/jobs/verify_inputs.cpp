@@ -46,7 +46,8 @@ std::map<std::string, double> inflated(const std::vector<std::string>& texts, co
     if (!is_link || radius < 0)
       throw BadInput("--inflate: must be LINK=RADIUS of a link of the robot (got \"" +
                      printable(text, 80) + "\")");
-    radii[name] = radius;
+    if (!radii.emplace(name, radius).second)
+      throw BadInput("--inflate: duplicate: \"" + printable(name, 60) + '"');
   }
   return radii;
 }

@@ -50,7 +50,8 @@ Scene scene_at(const Workcell& cell, const JointPath& path, const WorstMoment& w
 }
 
 /// Moves the camera closer, and around the point to the view in which least is in front of it.
-void look_at(Scene& scene, const World& world, const Vec3<double>& point) {
+/// Nothing but the body of the robot, `moving`, should be: an obstacle hides what hits it.
+void look_at(Scene& scene, const World& world, const Vec3<double>& point, std::size_t moving) {
   CameraDescription& camera = scene.camera;
   const Vec3<double> from = camera.position - camera.look_at;
   constexpr double nearer = 0.6;
@@ -67,12 +68,19 @@ void look_at(Scene& scene, const World& world, const Vec3<double>& point) {
       const WorldHit hit = world.closest_hit(Ray<double>{position, -distance * out, 1}, counts);
       // Ends the ray within or between the pair, so that it meets little else if nothing hides the
       // pair.
-      const double seen = hit.found() ? hit.cast.t() : 1;
+      const bool shows_robot = !hit.found() || hit.instance == moving;
+      const double seen = (hit.found() ? hit.cast.t() : 1) + (shows_robot ? 1 : 0);
       if (!(seen > best + 0.02)) continue;
       best = seen;
       camera.position = position;
     }
   camera.look_at = point;
+}
+
+/// The pair's body that is a link's; objects of scene_at have the numbers of bodies.
+std::size_t moving_body(const Workcell& cell, const WorstMoment& worst) {
+  const RefereePair& pair = cell.pairs[worst.pair];
+  return cell.bodies[pair.a].link_index >= 0 ? pair.a : pair.b;
 }
 
 }  // namespace
@@ -88,13 +96,20 @@ WorstMoment worst_moment(const MotionVerdict& verdict) {
   return {least.pair, least.time, (least.distance.point_a + least.distance.point_b) / 2, true};
 }
 
+Vec3<double> worst_view(const MotionVerdict& verdict, const Plan& plan, const Workcell& cell) {
+  const WorstMoment worst = worst_moment(verdict);
+  Scene scene = scene_at(cell, plan.path, worst);
+  look_at(scene, make_world(scene), worst.point, moving_body(cell, worst));
+  return scene.camera.position - scene.camera.look_at;
+}
+
 Image worst_picture(const MotionVerdict& verdict, const Plan& plan, const Workcell& cell,
                     const std::string& title, int samples) {
   WorstMoment worst = worst_moment(verdict);
   if (!worst.exists) worst.time = plan.path.times.front();
   Scene scene = scene_at(cell, plan.path, worst);
   const World world = make_world(scene);
-  if (worst.exists) look_at(scene, world, worst.point);
+  if (worst.exists) look_at(scene, world, worst.point, moving_body(cell, worst));
   RenderOptions options;
   options.resolution = picture_size;
   options.samples = samples;

@@ -20,6 +20,10 @@ struct WorstMoment {
 };
 WorstMoment worst_moment(const MotionVerdict& verdict);
 
+/// Direction from the worst moment's point, which must exist, to a viewer who sees it: that of the
+/// picture.
+Vec3<double> worst_view(const MotionVerdict& verdict, const Plan& plan, const Workcell& cell);
+
 /// Linear picture with the verdict's first line written on it.
 Image worst_picture(const MotionVerdict& verdict, const Plan& plan, const Workcell& cell,
                     const std::string& title, int samples);

@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: MIT
 // C interface: verdicts on a robot's motion.
 #include <cmath>
+#include <cstring>
 
 #include "core/parallel/parallel.h"
+#include "renderer/base/build.h"
+#include "renderer/io/output_file.h"
 #include "renderer/library/handles/poses.h"
 #include "renderer/library/handles/robot_among.h"
+#include "renderer/verify/proof.h"
+#include "renderer/verify/provable.h"
 #include "renderer/verify/referee.h"
 
 namespace minkray {
 namespace {
 
-/// Derivatives of the joints' values by the row, in the order of the path's joints.
-std::vector<std::vector<std::vector<double>>> rates_of(const HeldScene::Group& robot,
-                                                       const JointPath& path, const double* rates,
-                                                       std::size_t rows) {
+/// First or second derivatives of the joints' values by the row, in the order of the path's joints.
+std::vector<std::vector<std::vector<double>>> derivatives_of(const HeldScene::Group& robot,
+                                                             const JointPath& path,
+                                                             const double* rates,
+                                                             std::size_t rows) {
   std::vector<std::vector<std::vector<double>>> all;
   for (std::size_t row = 0; row < rows; ++row) {
     all.emplace_back();
@@ -85,15 +91,35 @@ struct VerdictCall {
   minkray_verdict_options given;
 };
 
+void check_finite(const double* numbers, std::size_t count, const char* argument) {
+  for (std::size_t i = 0; i < count; ++i)
+    if (!std::isfinite(numbers[i])) wrong_use(std::string(argument) + ": must be finite numbers");
+}
+
+/// Writes a proof, except of an undecided motion.
+void write_proof(const std::string& file, const MotionVerdict& found, const JointPath& path,
+                 const RobotAmong& among, const std::vector<RefereePair>& pairs,
+                 const RefereeOptions& options) {
+  if (found.status == MotionStatus::undecided) return;
+  const std::string text = proof_text(provable(found, path, among.bodies, pairs, options), path,
+                                      {std::string(version_and_commit())});
+  write_file(file, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
+}
+
 minkray_verdict judge(const HeldScene& held, const HeldScene::Group& robot,
                       const VerdictCall& asked) {
   const std::vector<JointRow> read = rows_of(robot, asked.path, asked.rows, asked.numbers);
   const RobotAmong among(held, robot, asked.given.only_obstacles == 0);
   JointPath path = path_of(*robot.model, read);
+  const double* const accelerations = asked.given.accelerations;
   if (asked.rates) {
-    for (std::size_t i = 0; i < asked.rows * asked.numbers; ++i)
-      if (!std::isfinite(asked.rates[i])) wrong_use("rates: must be finite numbers");
-    path.rates = rates_of(robot, path, asked.rates, read.size());
+    check_finite(asked.rates, asked.rows * asked.numbers, "rates");
+    path.rates = derivatives_of(robot, path, asked.rates, read.size());
+  }
+  if (accelerations) {
+    if (!asked.rates) wrong_use("options.accelerations: must have rates");
+    check_finite(accelerations, asked.rows * asked.numbers, "options.accelerations");
+    path.accelerations = derivatives_of(robot, path, accelerations, read.size());
   }
   std::vector<RefereePair> pairs;
   for (const BodyPair& pair : among.pairs) {
@@ -104,8 +130,10 @@ minkray_verdict judge(const HeldScene& held, const HeldScene::Group& robot,
   RefereeOptions options;
   if (asked.given.tolerance > 0) options.tolerance = asked.given.tolerance;
   if (asked.given.budget > 0) options.budget = asked.given.budget;
+  options.keep_planes = asked.given.proof != nullptr;
   const MotionVerdict found = verdict_of(path, among.bodies, pairs, options);
   throw_if_lied(held.customs());
+  if (asked.given.proof) write_proof(asked.given.proof, found, path, among, pairs, options);
   return plain_verdict(found, pairs, among, robot.pose);
 }
 
@@ -126,11 +154,11 @@ int minkray_scene_verify(minkray_scene scene, uint32_t group, const double* path
     const HeldScene::Group& robot = held->group(group);
     if (!robot.model) wrong_use("group: must be a robot's, from URDF, MJCF, SDF or glTF");
     if (!is_rigid(robot.pose)) wrong_use("group: must have a pose that keeps lengths");
-    minkray_verdict_options given = {sizeof given, 0, 0, 0, 0, 0};
+    minkray_verdict_options given = {};
     if (options) {
-      if (options->size < sizeof given)
+      if (options->size < offsetof(minkray_verdict_options, accelerations))
         wrong_use("options.size: must be sizeof(minkray_verdict_options)");
-      given = *options;
+      std::memcpy(&given, options, std::min(options->size, sizeof given));
     }
     if (!(given.tolerance >= 0 && given.tolerance <= 1))
       wrong_use("options.tolerance: must be between 0 and 1 (got " +

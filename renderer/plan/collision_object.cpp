@@ -9,6 +9,7 @@
 #include "renderer/import/model/orientation.h"
 #include "renderer/json/object_reader.h"
 #include "renderer/json/values.h"
+#include "renderer/plan/message_fields.h"
 #include "renderer/plan/message_values.h"
 
 namespace minkray {
@@ -50,9 +51,18 @@ CollisionObjects::CollisionObjects(const std::string& file, const ImportOptions&
 
 Affine<double> CollisionObjects::pose_of(const Json& json, std::string_view key, std::size_t index,
                                          const JsonPath& path) {
-  const Json* poses = member_of(json, key);
-  if (!poses || !poses->is_array() || index >= poses->size()) return {};
-  return read_message_pose((*poses)[index], path / key / index, mistakes_);
+  const Json& poses = list_of(json, key, path, mistakes_);
+  if (index >= poses.size()) return {};
+  return read_message_pose(poses[index], path / key / index, mistakes_);
+}
+
+void CollisionObjects::check_poses(const Json& json, std::string_view shapes,
+                                   std::string_view poses, const JsonPath& path) {
+  const std::size_t wanted = list_of(json, shapes, path, mistakes_).size(),
+                    given = list_of(json, poses, path, mistakes_).size();
+  if (given != 0 && given != wanted)
+    mistakes_.add(path / poses, "must be one for each of the " + std::to_string(wanted) + " " +
+                                    std::string(shapes) + " (got " + std::to_string(given) + ")");
 }
 
 void CollisionObjects::add_primitives(const Json& json, const JsonPath& path,
@@ -60,6 +70,7 @@ void CollisionObjects::add_primitives(const Json& json, const JsonPath& path,
   const Json& list = list_of(json, "primitives", path, mistakes_);
   for (std::size_t i = 0; i < list.size(); ++i) {
     const JsonPath at = path / "primitives" / i;
+    check_fields(list[i], Message::primitive, at, mistakes_);
     const Json* type = member_of(list[i], "type");
     const Primitive* primitive = type ? primitive_of(*type) : nullptr;
     if (!primitive) {
@@ -86,6 +97,7 @@ void CollisionObjects::add_primitives(const Json& json, const JsonPath& path,
 
 void CollisionObjects::add_mesh(const Json& mesh, const JsonPath& path, const Affine<double>& pose,
                                 PlannedObject& object) {
+  check_fields(mesh, Message::mesh, path, mistakes_);
   MeshLibrary::Answer answer;
   if (const Json* resource = member_of(mesh, "resource")) {  // key of Robowflex
     Vec3<double> scale = Vec3<double>::Ones();
@@ -118,6 +130,7 @@ void CollisionObjects::add_mesh(const Json& mesh, const JsonPath& path, const Af
       parts.triangles.push_back(triangle);
     }
     if (parts.vertices.empty()) return mistakes_.add(path / "vertices", "must not be empty");
+    if (triangles.empty()) return mistakes_.add(path / "triangles", "must not be empty");
     answer = meshes_.made_of(parts, Vec3<double>::Ones(), "mesh of " + object.id);
   }
   if (!answer.complaint.empty()) return mistakes_.add(path, answer.complaint);
@@ -160,10 +173,14 @@ void CollisionObjects::add_planes(const Json& json, const JsonPath& path, Planne
 void CollisionObjects::add(const Json& json, const JsonPath& path,
                            std::vector<PlannedObject>& objects) {
   PlannedObject object;
+  check_fields(json, Message::collision_object, path, mistakes_);
+  if (!json.is_object()) return;
   object.id = text_of(json, "id", path, mistakes_);
   if (object.id.empty()) mistakes_.add(path / "id", "missing: must be the object's name");
-  if (const Json* header = member_of(json, "header"))
+  if (const Json* header = member_of(json, "header")) {
+    check_fields(*header, Message::header, path / "header", mistakes_);
     object.frame = text_of(*header, "frame_id", path / "header", mistakes_);
+  }
   Operation operation = Operation::add;
   if (const Json* number = member_of(json, "operation")) {
     const std::vector<std::string> names = {"add", "remove", "append", "move"};
@@ -174,6 +191,9 @@ void CollisionObjects::add(const Json& json, const JsonPath& path,
     else if (const auto value = read_integer(*number, path / "operation", mistakes_, 0, 3))
       operation = static_cast<Operation>(*value);
   }
+  check_poses(json, "primitives", "primitive_poses", path);
+  check_poses(json, "meshes", "mesh_poses", path);
+  check_poses(json, "planes", "plane_poses", path);
   add_primitives(json, path, object);
   add_meshes(json, path, object);
   add_planes(json, path, object);
@@ -211,6 +231,7 @@ void CollisionObjects::add_attached(const Json& state, const JsonPath& path,
   const Json& list = list_of(state, "attached_collision_objects", path, mistakes_);
   for (std::size_t i = 0; i < list.size(); ++i) {
     const JsonPath at = path / "attached_collision_objects" / i;
+    check_fields(list[i], Message::attached_object, at, mistakes_);
     const Json* inner = member_of(list[i], "object");
     if (!inner) {
       mistakes_.add(at / "object", "missing: must be a collision object");

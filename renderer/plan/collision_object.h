@@ -23,9 +23,12 @@ class CollisionObjects {
   void add_attached(const Json& state, const JsonPath& path, std::vector<PlannedObject>& objects);
 
  private:
-  /// Poses of a list of shapes; a missing one defaults to the object's origin.
+  /// Pose of an item of a list of shapes; without a list of poses that is the object's origin.
   Affine<double> pose_of(const Json& json, std::string_view key, std::size_t index,
                          const JsonPath& path);
+  /// Adds a mistake if a list of shapes has poses, but not as many.
+  void check_poses(const Json& json, std::string_view shapes, std::string_view poses,
+                   const JsonPath& path);
   void add_primitives(const Json& json, const JsonPath& path, PlannedObject& object);
   void add_meshes(const Json& json, const JsonPath& path, PlannedObject& object);
   void add_mesh(const Json& mesh, const JsonPath& path, const Affine<double>& pose,

@@ -3,6 +3,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -178,7 +179,8 @@ void with_lines(const Document& document, Mistakes& mistakes,
   if (found.none()) return;
   const std::unordered_map<std::string, std::size_t> lines = lines_of(document);
   // Messages on one line, such as JSON sent through a pipe, need no line numbers.
-  const bool has_lines = document.text.empty() || document.text.find('\n') != std::string::npos;
+  const bool has_lines =
+      std::ranges::any_of(lines, [](const auto& value) { return value.second > 1; });
   // Each message is ": PATH: TEXT", or ": TEXT" for the document as a whole.
   for (const std::string& message : found.messages()) {
     const std::string rest = message.substr(2);

@@ -56,35 +56,44 @@ Trajectory read_npy_rows(const std::string& file, const Model& model,
   return trajectory;
 }
 
-/// Moves rows of continuous joints by whole turns so that no step is longer than half a turn.
+/// True if a row has rates of that joint: they lead it its own way round.
+bool has_rates(const Trajectory& trajectory, const std::string& joint) {
+  return std::ranges::any_of(trajectory.rates, [&](const JointValues& row) {
+    return std::ranges::find(row, joint, &JointValues::value_type::first) != row.end();
+  });
+}
+
+/// Moves angles of continuous and planar joints by whole turns so that no step is longer than half
+/// a turn.
 void go_shorter_way(Trajectory& trajectory, const Model& model) {
-  // Velocities lead each joint its own way round.
-  if (std::ranges::any_of(trajectory.rates, [](const JointValues& row) { return !row.empty(); }))
-    return;
   constexpr double whole = 2 * std::numbers::pi;
   for (const ModelLink& link : model.links)
     for (const ModelJoint& joint : link.joints) {
-      if (joint.kind != JointKind::hinge || joint.limits || joint.mimic) continue;
+      const bool is_planar = joint.kind == JointKind::planar;
+      const bool is_round = is_planar || (joint.kind == JointKind::hinge && !joint.limits);
+      if (!is_round || joint.mimic || has_rates(trajectory, joint.name)) continue;
+      const std::size_t number = is_planar ? 2 : 0;
       double turns = 0, before = 0;
       std::size_t steps = 0;
       bool is_first = true;
       for (JointRow& row : trajectory.rows)
         for (auto& [name, values] : row.values) {
-          if (name != joint.name || values.size() != 1) continue;
-          const double step = values[0] + whole * turns - before;
+          if (name != joint.name || values.size() != width_of(joint.kind)) continue;
+          double& angle = values[number];
+          const double step = angle + whole * turns - before;
           if (!is_first && std::abs(step) > std::numbers::pi * (1 + 1e-9)) {
             turns -= std::round(step / whole);
             ++steps;
           }
-          values[0] += whole * turns;
-          before = values[0];
+          angle += whole * turns;
+          before = angle;
           is_first = false;
         }
       if (steps > 0)
-        trajectory.notes.push_back("the joint \"" + printable(joint.name, 60) +
-                                   "\" turns by more " + "than half a turn in " +
-                                   std::to_string(steps) + (steps == 1 ? " step" : " steps") +
-                                   "; using the shorter way (continuous joint)");
+        trajectory.notes.push_back(
+            "the joint \"" + printable(joint.name, 60) + "\" turns by more " +
+            "than half a turn in " + std::to_string(steps) + (steps == 1 ? " step" : " steps") +
+            "; using the shorter way (" + (is_planar ? "planar" : "continuous") + " joint)");
     }
 }
 
@@ -138,7 +147,12 @@ Trajectory read_table(const std::string& file, Model& model,
                       const std::vector<std::string>& columns, Mistakes& mistakes) {
   if (ends_with_any(file, {".npy", ".NPY"})) return read_npy_rows(file, model, columns, mistakes);
   Trajectory trajectory;
-  trajectory.rows = read_joint_rows(file, model, mistakes, "--trajectory", 1);
+  Mistakes of_file("");
+  trajectory.rows = read_joint_rows(file, model, of_file, "", 1);
+  // Each message is ": : FILE: TEXT".
+  const std::size_t begin = printable(file).size() + 6;
+  for (const std::string& message : of_file.messages())
+    mistakes.add(std::string_view(message).substr(std::min(begin, message.size())));
   std::size_t number = 0;
   trajectory.has_times = std::ranges::any_of(trajectory.rows, [&](const JointRow& row) {
     return row.time != static_cast<double>(number++);

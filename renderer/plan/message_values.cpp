@@ -5,6 +5,7 @@
 
 #include "renderer/import/model/orientation.h"
 #include "renderer/json/values.h"
+#include "renderer/plan/message_fields.h"
 
 namespace minkray {
 namespace {
@@ -59,12 +60,17 @@ std::string text_of(const Json& json, std::string_view key, const JsonPath& path
 }
 
 Vec3<double> read_message_vector(const Json& json, const JsonPath& path, Mistakes& mistakes) {
+  check_fields(json, Message::vector, path, mistakes);
   const auto v = read_keys<3>(json, {"x", "y", "z"}, {0, 0, 0}, path, mistakes);
   return {v[0], v[1], v[2]};
 }
 
 std::array<double, 4> read_message_quaternion(const Json& json, const JsonPath& path,
                                               Mistakes& mistakes) {
+  check_fields(json, Message::quaternion, path, mistakes);
+  // The default of w is 0 in ROS 1 and 1 in ROS 2.
+  if (json.is_object() && !json.empty() && !json.contains("w"))
+    mistakes.add(path / "w", "missing: a quaternion has x, y, z and w");
   return read_keys<4>(json, {"x", "y", "z", "w"}, {0, 0, 0, 0}, path, mistakes);
 }
 
@@ -75,6 +81,7 @@ Affine<double> read_message_pose(const Json& json, const JsonPath& path, Mistake
                  "must be a pose: an object of position and orientation (" + found(json) + ")");
     return pose;
   }
+  check_fields(json, Message::pose, path, mistakes);
   for (const std::string_view key : {"position", "translation"})
     if (const Json* value = member_of(json, key))
       pose.translation = read_message_vector(*value, path / key, mistakes);

@@ -7,7 +7,9 @@
 #include <stdexcept>
 
 #include "core/derived/sandwich.h"
+#include "renderer/import/model/mesh_hull.h"
 #include "renderer/import/model/orientation.h"
+#include "renderer/json/number_json.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {
@@ -41,6 +43,21 @@ Json mesh_of(const Shape<double>& shape, const Affine<double>& pose) {
   return {{"v", std::move(vertices)}, {"t", std::move(triangles)}};
 }
 
+/// Meshes of more triangles are represented by their hulls.
+constexpr std::size_t most_triangles = 20'000;
+
+Json mesh_of(const TriangleMesh& mesh, const Affine<double>& pose) {
+  if (mesh.size() > most_triangles) return mesh_of(hull_of(mesh), pose);
+  Json vertices = Json::array(), triangles = Json::array();
+  for (const Vec3<double>& vertex : mesh.vertices()) {
+    const Vec3<double> at = pose(vertex);
+    for (int axis = 0; axis < 3; ++axis) vertices.push_back(rounded(at[axis]));
+  }
+  for (const Corners& corners : mesh.triangles())
+    for (const std::uint32_t corner : corners) triangles.push_back(corner);
+  return {{"v", std::move(vertices)}, {"t", std::move(triangles)}};
+}
+
 /// A large square that represents a half-space.
 Json square_of(const Affine<double>& pose) {
   constexpr double half = 3;
@@ -59,7 +76,9 @@ Json bodies_json(const Workcell& cell) {
   for (std::size_t i = 0; i < cell.model.geoms.size(); ++i) {
     if (!chosen[i]) continue;
     const ModelGeom& geom = cell.model.geoms[i];
-    Json body = geom.shape ? mesh_of(*geom.shape, geom.pose) : square_of(geom.pose);
+    Json body = geom.touches_as_half_space() ? square_of(geom.pose)
+                : geom.mesh                  ? mesh_of(*geom.mesh, geom.pose)
+                                             : mesh_of(*geom.shape, geom.pose);
     body["link"] = geom.link;
     bodies.push_back(std::move(body));
   }
@@ -69,7 +88,8 @@ Json bodies_json(const Workcell& cell) {
       Json body = object.half_space
                       ? square_of({rotation_of_z_to(object.half_space->posed(object.pose).normal),
                                    object.pose.translation})
-                      : mesh_of(object.shape, object.pose);
+                  : object.mesh ? mesh_of(*object.mesh, object.pose)
+                                : mesh_of(object.shape, object.pose);
       body["link"] = -1;
       bodies.push_back(std::move(body));
     }
@@ -94,11 +114,10 @@ std::vector<double> moments_of(const JointPath& path, double worst) {
 
 }  // namespace
 
-std::string motion_page(const Workcell& cell, const JointPath& path, const Json& verdict_json,
-                        const std::string& text, double worst) {
+std::string motion_page(const Workcell& cell, const JointPath& path, const ShownMotion& shown) {
   Json names = Json::array(), moments = Json::array(), poses = Json::array();
   for (const ClearanceBody& body : cell.bodies) names.push_back(printable(body.name));
-  for (const double time : moments_of(path, worst)) {
+  for (const double time : moments_of(path, shown.worst)) {
     moments.push_back(time);
     Json links = Json::array();
     for (const Affine<double>& pose : link_poses(path.posed_at(time))) {
@@ -108,13 +127,11 @@ std::string motion_page(const Workcell& cell, const JointPath& path, const Json&
     }
     poses.push_back(std::move(links));
   }
-  const Json motion = {{"bodies", bodies_json(cell)},
-                       {"names", std::move(names)},
-                       {"times", std::move(moments)},
-                       {"poses", std::move(poses)},
-                       {"verdict", verdict_json},
-                       {"text", text},
-                       {"worst", worst}};
+  const Json motion = {{"bodies", bodies_json(cell)},   {"names", std::move(names)},
+                       {"times", std::move(moments)},   {"poses", std::move(poses)},
+                       {"verdict", shown.verdict},      {"text", shown.text},
+                       {"worst", shown.worst},          {"has_times", shown.has_times},
+                       {"view", point_json(shown.view)}};
   std::string data = motion.dump();
   // Text must not end the enclosing script.
   for (std::size_t at = 0; (at = data.find('<', at)) != std::string::npos;)

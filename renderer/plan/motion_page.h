@@ -9,10 +9,15 @@
 
 namespace minkray {
 
-/// `verdict_json` is the output of --json, `text` the verdict in words, `worst` the time to begin
-/// at.
-std::string motion_page(const Workcell& cell, const JointPath& path, const Json& verdict_json,
-                        const std::string& text, double worst);
+struct ShownMotion {
+  Json verdict;                            ///< output of --json
+  std::string text;                        ///< verdict in words
+  double worst = 0;                        ///< time to begin at
+  bool has_times = true;                   ///< false: times are numbers of rows
+  Vec3<double> view = {0.57, 0.72, 0.39};  ///< direction to the viewer
+};
+
+std::string motion_page(const Workcell& cell, const JointPath& path, const ShownMotion& shown);
 
 /// Page with "<!-- motion -->" as placeholder of its data (motion_page_html.cpp).
 std::string motion_page_html();

@@ -46,7 +46,10 @@ const motion = JSON.parse(document.getElementById('motion').textContent);
 const find = id => document.getElementById(id);
 const canvas = find('view'), context = canvas.getContext('2d');
 const first = motion.times[0], last = motion.times[motion.times.length - 1];
-let time = motion.worst, playing = false, azimuth = 0.9, elevation = 0.4, zoom = 1;
+let time = motion.worst, playing = false, zoom = 1;
+let azimuth = Math.atan2(motion.view[1], motion.view[0]), elevation = Math.asin(motion.view[2] / Math.hypot(...motion.view));
+/** A time in seconds, or in rows if the motion has no times. */
+const timeText = t => motion.has_times ? t.toFixed(3) + ' s' : 'row ' + (t + 1).toFixed(3);
 let pair = [motion.verdict.a, motion.verdict.b];
 
 function mix(p, q, s) { return p.map((x, i) => x + s * (q[i] - x)); }
@@ -82,11 +85,14 @@ function cornersOf(body, poses) {
   }
   return corners;
 }
-/** The robot's middle and size at the first moment: what the view turns about. */
+/** Middle and size of what the robot passes over: the view turns about it. */
 const around = (() => {
-  const low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9], poses = posesAt(first);
-  motion.bodies.filter(body => body.link >= 0).forEach(body => cornersOf(body, poses).forEach(p =>
-    p.forEach((x, i) => { low[i] = Math.min(low[i], x); high[i] = Math.max(high[i], x); })));
+  const low = [1e9, 1e9, 1e9], high = [-1e9, -1e9, -1e9];
+  for (let k = 0; k <= 8; ++k) {
+    const poses = posesAt(first + (last - first) * k / 8);
+    motion.bodies.filter(body => body.link >= 0).forEach(body => cornersOf(body, poses).forEach(p =>
+      p.forEach((x, i) => { low[i] = Math.min(low[i], x); high[i] = Math.max(high[i], x); })));
+  }
   if (low[0] > high[0]) return {middle: [0, 0, 0], size: 1};
   return {middle: mix(low, high, 0.5), size: Math.hypot(...high.map((x, i) => x - low[i])) || 1};
 })();
@@ -129,7 +135,7 @@ function draw() {
     });
     const name = motion.names[index];
     // Obstacles are transparent so that they do not hide the robot.
-    const alpha = body.link < 0 && name !== pair[0] && name !== pair[1] ? 0.4 : 1;
+    const alpha = body.link >= 0 ? 1 : name === pair[0] || name === pair[1] ? 0.6 : 0.4;
     const colour = name === pair[0] ? [235, 120, 20] : name === pair[1] ? [40, 105, 225]
       : body.link < 0 ? [165, 160, 140] : [150, 160, 170];
     for (let i = 0; i < body.t.length; i += 3) {
@@ -153,7 +159,7 @@ function draw() {
     context.fill();
     if (face.alpha === 1) context.stroke();
   }
-  find('shown').textContent = time.toFixed(3) + ' s';
+  find('shown').textContent = timeText(time);
   find('time').value = last > first ? 1000 * (time - first) / (last - first) : 0;
   find('a').textContent = pair[0] ?? ''; find('b').textContent = pair[1] ?? '';
 }
@@ -195,7 +201,7 @@ if (stretches.length) {
     button.textContent = 'Show';
     button.onclick = () => { pair = [stretch.a, stretch.b]; show(stretch.time ?? stretch.begin); };
     row.insertCell().append(button);
-    for (const text of [stretch.a, stretch.b, stretch.begin.toFixed(3) + ' to ' + stretch.end.toFixed(3) + ' s'])
+    for (const text of [stretch.a, stretch.b, timeText(stretch.begin) + ' to ' + timeText(stretch.end)])
       row.insertCell().textContent = text;
   }
   find('list').append(table);

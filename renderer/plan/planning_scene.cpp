@@ -8,6 +8,7 @@
 #include "renderer/json/object_reader.h"
 #include "renderer/json/values.h"
 #include "renderer/plan/collision_object.h"
+#include "renderer/plan/message_fields.h"
 #include "renderer/plan/message_values.h"
 
 namespace minkray {
@@ -26,6 +27,7 @@ CollisionMatrix read_matrix(const Json& json, const JsonPath& path, Mistakes& mi
   const auto bit = [&](const Json& value, const JsonPath& at) {
     return read_bool(value, at, mistakes).value_or(false);
   };
+  check_fields(json, Message::collision_matrix, path, mistakes);
   std::vector<std::string> names, defaults;
   if (const Json* list = member_of(json, "entry_names"))
     names = read_name_list(*list, path / "entry_names", mistakes);
@@ -40,6 +42,7 @@ CollisionMatrix read_matrix(const Json& json, const JsonPath& path, Mistakes& mi
   for (std::size_t i = 0; i < std::min(rows.size(), names.size()); ++i) {
     const Json* row = &rows[i];
     JsonPath where = at / i;
+    check_fields(*row, Message::collision_entry, where, mistakes);
     if (const Json* enabled = member_of(*row, "enabled")) {  // moveit_msgs/AllowedCollisionEntry
       row = enabled;
       where = where / "enabled";
@@ -70,6 +73,7 @@ CollisionMatrix read_matrix(const Json& json, const JsonPath& path, Mistakes& mi
 /// Adds the transforms of a MultiDOFJointState.
 void add_multi_dof(const Json& json, const JsonPath& path, const Model& model, JointValues& values,
                    Mistakes& mistakes) {
+  check_fields(json, Message::poses_state, path, mistakes);
   std::vector<std::string> names;
   if (const Json* list = member_of(json, "joint_names"))
     names = read_name_list(*list, path / "joint_names", mistakes);
@@ -122,8 +126,10 @@ std::vector<double> values_of_transform(const Json& json, const JsonPath& path, 
 JointValues read_robot_state(const Json& json, const JsonPath& path, const Model& model,
                              std::vector<std::string>& notes, Mistakes& mistakes) {
   JointValues values;
+  check_fields(json, Message::robot_state, path, mistakes);
   if (const Json* state = member_of(json, "joint_state")) {
     const JsonPath at = path / "joint_state";
+    check_fields(*state, Message::joint_state, at, mistakes);
     std::vector<std::string> names;
     std::vector<double> positions;
     if (const Json* list = member_of(*state, "name"))
@@ -135,6 +141,9 @@ JointValues read_robot_state(const Json& json, const JsonPath& path, const Model
                                         std::to_string(names.size()) + " names (got " +
                                         std::to_string(positions.size()) + ")");
     for (std::size_t i = 0; i < std::min(names.size(), positions.size()); ++i) {
+      if (std::find(names.begin(), names.begin() + std::ptrdiff_t(i), names[i]) !=
+          names.begin() + std::ptrdiff_t(i))
+        mistakes.add(at / "name" / i, "duplicate: \"" + printable(names[i], 60) + '"');
       const ModelJoint* joint = joint_of(model, names[i]);
       if (!joint)
         notes.push_back((at / "name" / i).text() + ": there is no joint \"" +
@@ -167,13 +176,17 @@ PlanningScene read_planning_scene(const Document& document, const Json& json, co
                                   const Model& model, const ImportOptions& options,
                                   Mistakes& mistakes) {
   PlanningScene scene;
+  check_fields(json, Message::planning_scene, path, mistakes);
   CollisionObjects objects(document.file, options, mistakes);
   if (const Json* world = member_of(json, "world")) {
     const JsonPath at = path / "world";
+    check_fields(*world, Message::world, at, mistakes);
     const Json& list = list_of(*world, "collision_objects", at, mistakes);
     for (std::size_t i = 0; i < list.size(); ++i)
       objects.add(list[i], at / "collision_objects" / i, scene.objects);
     const Json* octomap = member_of(*world, "octomap");
+    if (octomap && !octomap->is_object())
+      mistakes.add(at / "octomap", "must be an object (" + found(*octomap) + ")");
     const Json* inner = octomap ? member_of(*octomap, "octomap") : nullptr;
     if (const Json* data = inner ? member_of(*inner, "data") : nullptr; data && !data->empty())
       mistakes.add(at / "octomap" / "octomap" / "data",
@@ -189,6 +202,7 @@ PlanningScene read_planning_scene(const Document& document, const Json& json, co
   const Json& frames = list_of(json, "fixed_frame_transforms", path, mistakes);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const JsonPath at = path / "fixed_frame_transforms" / i;
+    check_fields(frames[i], Message::fixed_frame, at, mistakes);
     const std::string name = text_of(frames[i], "child_frame_id", at, mistakes);
     if (const Json* transform = member_of(frames[i], "transform"))
       scene.fixed_frames[name] = read_message_pose(*transform, at / "transform", mistakes);
@@ -196,17 +210,27 @@ PlanningScene read_planning_scene(const Document& document, const Json& json, co
   const Json& padding = list_of(json, "link_padding", path, mistakes);
   for (std::size_t i = 0; i < padding.size(); ++i) {
     const JsonPath at = path / "link_padding" / i;
+    check_fields(padding[i], Message::link_padding, at, mistakes);
     const std::string name = text_of(padding[i], "link_name", at, mistakes);
+    const bool is_link =
+        std::ranges::find(model.links, name, &ModelLink::name) != model.links.end();
+    if (!is_link)
+      scene.notes.push_back((at / "link_name").text() + ": there is no link \"" +
+                            printable(name, 60) + "\"; its padding is passed over");
     if (const Json* value = member_of(padding[i], "padding"))
       scene.padding[name] =
           read_number(*value, at / "padding", mistakes, Range::not_negative).value_or(0);
+    else
+      mistakes.add(at / "padding", "missing: must be a length >= 0");
   }
   const Json& scales = list_of(json, "link_scale", path, mistakes);
-  for (std::size_t i = 0; i < scales.size(); ++i)
-    if (const Json* value = member_of(scales[i], "scale");
-        value && value->is_number() && value->get<double>() != 1)
-      mistakes.add(path / "link_scale" / i / "scale",
-                   "must be 1: links are not scaled (" + found(*value) + ")");
+  for (std::size_t i = 0; i < scales.size(); ++i) {
+    const JsonPath at = path / "link_scale" / i;
+    check_fields(scales[i], Message::link_scale, at, mistakes);
+    const Json* value = member_of(scales[i], "scale");
+    if (value && !(value->is_number() && value->get<double>() == 1))
+      mistakes.add(at / "scale", "must be 1: links are not scaled (" + found(*value) + ")");
+  }
   return scene;
 }
 

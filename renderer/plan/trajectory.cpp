@@ -8,6 +8,7 @@
 #include "renderer/json/closest_word.h"
 #include "renderer/json/object_reader.h"
 #include "renderer/json/values.h"
+#include "renderer/plan/message_fields.h"
 #include "renderer/plan/message_values.h"
 #include "renderer/plan/robot_meaning.h"
 
@@ -32,7 +33,7 @@ class TrajectoryReader {
                     "must be a trajectory: joint_names and points (JointTrajectory), "
                     "joint_trajectory (RobotTrajectory), or a request of start_state and "
                     "goal_constraints");
-    if (mistakes_.none()) check_times(path);
+    if (mistakes_.none()) check_times();
     return std::move(trajectory_);
   }
 
@@ -47,6 +48,7 @@ class TrajectoryReader {
       }
       return;
     }
+    if (message.is_object()) check_fields(message, Message::with_trajectory, path, mistakes_);
     for (const std::string_view key : {"trajectory_start", "start_state"})
       if (const Json* state = member_of(message, key))
         for (auto& value :
@@ -128,6 +130,8 @@ class TrajectoryReader {
   }
 
   void add_joint_trajectory(const Json& json, const JsonPath& path) {
+    check_fields(json, Message::joint_trajectory, path, mistakes_);
+    points_ = path / "points";
     const std::vector<const ModelJoint*> joints = joints_of(json, path);
     for (std::size_t k = 0; k < joints.size(); ++k)
       if (joints[k] && width_of(joints[k]->kind) != 1)
@@ -136,6 +140,7 @@ class TrajectoryReader {
     const Json& points = list_of(json, "points", path, mistakes_);
     for (std::size_t i = 0; i < points.size() && mistakes_.messages().size() < most_mistakes; ++i) {
       const JsonPath at = path / "points" / i;
+      check_fields(points[i], Message::joint_trajectory_point, at, mistakes_);
       JointRow row{time_of(points[i], at), numbers_of(points[i], "positions", at, joints)};
       if (row.values.empty() && mistakes_.none())
         mistakes_.add(at / "positions", "missing: must be a number for each joint");
@@ -156,10 +161,14 @@ class TrajectoryReader {
   void add_robot_trajectory(const Json* of_joints, const Json* of_poses, const JsonPath& path) {
     is_new_part_ = true;
     const std::size_t first = trajectory_.rows.size();
+    points_ = path / (of_joints ? "joint_trajectory" : "multi_dof_joint_trajectory") / "points";
+    if (of_joints)
+      check_fields(*of_joints, Message::joint_trajectory, path / "joint_trajectory", mistakes_);
     if (of_joints && !list_of(*of_joints, "points", path / "joint_trajectory", mistakes_).empty())
       add_joint_trajectory(*of_joints, path / "joint_trajectory");
     if (!of_poses) return;
     const JsonPath at = path / "multi_dof_joint_trajectory";
+    check_fields(*of_poses, Message::poses_trajectory, at, mistakes_);
     const Json& points = list_of(*of_poses, "points", at, mistakes_);
     if (points.empty()) return;
     const std::vector<const ModelJoint*> joints = joints_of(*of_poses, at);
@@ -170,6 +179,9 @@ class TrajectoryReader {
                                               "; got " + std::to_string(points.size()) + ")");
     for (std::size_t i = 0; i < points.size(); ++i) {
       const JsonPath point = at / "points" / i;
+      if (i == 0 && !list_of(points[i], "velocities", point, mistakes_).empty())
+        trajectory_.notes.push_back(at.text() + ": velocities are ignored: poses go straight");
+      check_fields(points[i], Message::poses_trajectory_point, point, mistakes_);
       JointValues values;
       const Json& transforms = list_of(points[i], "transforms", point, mistakes_);
       if (transforms.size() != joints.size())
@@ -199,16 +211,23 @@ class TrajectoryReader {
   void add_request(const Json& goals, const JsonPath& path) {
     if (!goals.is_array() || goals.empty()) return mistakes_.add(path, "must be a list of goals");
     const JsonPath at = path / std::size_t{0} / "joint_constraints";
+    check_fields(goals[0], Message::constraints, path / std::size_t{0}, mistakes_);
+    if (!mistakes_.none()) return;
     const Json& constraints =
         list_of(goals[0], "joint_constraints", path / std::size_t{0}, mistakes_);
     if (constraints.empty()) return mistakes_.add(at, "missing: a goal must be given by joints");
     JointRow first{0, {}}, last{1, {}};
     for (std::size_t i = 0; i < constraints.size(); ++i) {
+      check_fields(constraints[i], Message::joint_constraint, at / i, mistakes_);
       const ModelJoint* joint =
           joint_of(text_of(constraints[i], "joint_name", at / i, mistakes_), at / i / "joint_name");
       const Json* position = member_of(constraints[i], "position");
       if (!position) mistakes_.add(at / i / "position", "missing: must be a number");
       if (!joint || !position) continue;
+      if (std::ranges::find(last.values, joint->name, &JointValues::value_type::first) !=
+          last.values.end())
+        mistakes_.add(at / i / "joint_name",
+                      "duplicate: \"" + printable(joint->name, 60) + "\" has a goal already");
       const auto goal = read_number(*position, at / i / "position", mistakes_);
       if (!goal || joint->mimic) continue;
       last.values.emplace_back(joint->name, std::vector{*goal});
@@ -224,23 +243,27 @@ class TrajectoryReader {
     trajectory_.has_times = false;
   }
 
-  void check_times(const JsonPath& path) {
+  void check_times() {
     std::vector<JointRow>& rows = trajectory_.rows;
-    if (rows.empty()) return mistakes_.add(path, "must have points");
+    if (rows.empty()) return mistakes_.add(points_, "must not be empty");
     const bool any_time =
         std::ranges::any_of(rows, [](const JointRow& row) { return row.time != 0; });
     if (!any_time || !trajectory_.has_times) {
       // A path without times does not use rates.
       trajectory_.has_times = rows.size() == 1;
       for (std::size_t i = 0; i < rows.size(); ++i) rows[i].time = static_cast<double>(i);
+      const auto any = [](const JointValues& row) { return !row.empty(); };
+      if (rows.size() > 1 && std::ranges::any_of(trajectory_.rates, any))
+        trajectory_.notes.push_back(
+            "no point has a time_from_start: velocities are ignored, joints go straight");
       trajectory_.rates.clear();
       trajectory_.accelerations.clear();
       return;
     }
     for (std::size_t i = 1; i < rows.size(); ++i)
       if (!(rows[i].time >= rows[i - 1].time))
-        return mistakes_.add(path, "times must rise: point " + std::to_string(i) +
-                                       " is earlier than the one before it");
+        return mistakes_.add(points_, "times must rise: point " + std::to_string(i) +
+                                          " is earlier than the one before it");
   }
 
   const Model& model_;
@@ -249,6 +272,7 @@ class TrajectoryReader {
   Trajectory trajectory_;
   bool is_found_ = false, is_new_part_ = true;
   double before_ = 0;
+  JsonPath points_;  ///< place of the last list of points
 };
 
 }  // namespace

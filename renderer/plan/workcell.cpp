@@ -129,6 +129,13 @@ void add_to_model(const PlanningScene& scene, Model& model, Mistakes& mistakes) 
     }
   }
   for (const PlannedObject& object : scene.attached) {
+    // Pairs are allowed by name.
+    if (link_of(model, object.id) >= 0 ||
+        std::ranges::find(scene.objects, object.id, &PlannedObject::id) != scene.objects.end()) {
+      mistakes.add("attached object \"" + printable(object.id, 60) +
+                   "\": id: must not be the name of a link or of another object");
+      continue;
+    }
     const int parent = link_of(model, object.carrier);
     if (parent < 0) {
       mistakes.add("attached object \"" + printable(object.id, 60) +

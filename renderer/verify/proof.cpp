@@ -2,6 +2,7 @@
 #include "renderer/verify/proof.h"
 
 #include <algorithm>
+#include <set>
 
 #include "core/files/regular_file.h"
 #include "renderer/base/errors.h"
@@ -78,7 +79,7 @@ void add_core(const ShapeCore& core, const std::string& name, Json& json) {
     case CoreKind::other:
       throw BadInput(
           "proof: the body \"" + printable(name, 100) +
-          "\" has a shape that proof files do not support; verify without -o PROOF.json");
+          "\" has a shape that proof files do not support; it is verified without a proof");
   }
 }
 
@@ -93,9 +94,23 @@ void add_hull(const ClearanceBody& body, Json& json) {
   json["turn"] = numbers_json(body.linear);
 }
 
-Json bodies_json(const std::vector<ClearanceBody>& bodies) {
+/// Writes the triangles of a mesh that encloses another body.
+void add_triangles(const ClearanceBody& body, Json& json) {
+  Json points = Json::array(), triangles = Json::array();
+  for (const Vec3<double>& vertex : body.mesh->vertices())
+    points.push_back(point_json(Vec3<double>(vertex - body.own_middle())));
+  for (const Corners& corners : body.mesh->triangles())
+    triangles.push_back(Json::array({corners[0], corners[1], corners[2]}));
+  json["points"] = std::move(points);
+  json["triangles"] = std::move(triangles);
+}
+
+Json bodies_json(const Provable& proven) {
+  std::set<std::size_t> enclosing;
+  for (const std::size_t pair : proven.enclosures) enclosing.insert(proven.pairs[pair].a);
   Json list = Json::array();
-  for (const ClearanceBody& body : bodies) {
+  for (const ClearanceBody& body : proven.bodies) {
+    const bool is_enclosing = enclosing.contains(list.size());
     Json json = {{"name", printable(body.name)}, {"link", body.link_index}};
     if (body.plane) {
       json["plane"] = point_json(body.plane->normal);
@@ -103,6 +118,7 @@ Json bodies_json(const std::vector<ClearanceBody>& bodies) {
     } else {
       if (body.mesh) {
         add_hull(body, json);
+        if (is_enclosing) add_triangles(body, json);
       } else {
         const ShapeCore& core = body.shape.core();
         add_core(core, body.name, json);
@@ -160,9 +176,8 @@ double claimed(double lower, const std::vector<ClearanceBody>& bodies) {
 
 }  // namespace
 
-std::string proof_text(const MotionVerdict& verdict, const JointPath& path,
-                       const std::vector<ClearanceBody>& bodies,
-                       const std::vector<RefereePair>& pairs, const ProofInputs& inputs) {
+std::string proof_text(const Provable& proven, const JointPath& path, const ProofInputs& inputs) {
+  const auto& [verdict, bodies, pairs, enclosures] = proven;
   if (verdict.status == MotionStatus::undecided)
     throw BadInput("proof: the motion is undecided: there is nothing to prove");
   Json json = {{"format", "minkray proof 1"},
@@ -176,7 +191,7 @@ std::string proof_text(const MotionVerdict& verdict, const JointPath& path,
                      {"sha256", sha256(read_regular_file(file, most_file_bytes))}});
   json["files"] = std::move(files);
   json["links"] = links_json(path.skeleton);
-  json["bodies"] = bodies_json(bodies);
+  json["bodies"] = bodies_json(proven);
   json["times"] = path.times;
   json["values"] = rows_json(path.values);
   json["rates"] = rows_json(path.rates);
@@ -187,10 +202,14 @@ std::string proof_text(const MotionVerdict& verdict, const JointPath& path,
   if (verdict.status == MotionStatus::free) {
     json["planes"] = planes_json(verdict.planes);
   } else {
-    Json collisions = Json::array();
-    for (const Stretch& stretch : verdict.stretches)
-      if (stretch.collides) collisions.push_back(Json::array({stretch.pair, stretch.time}));
-    json["collisions"] = std::move(collisions);
+    Json crossing = Json::array(), within = Json::array();
+    for (const Stretch& stretch : verdict.stretches) {
+      if (!stretch.collides) continue;
+      const bool is_within = std::ranges::binary_search(enclosures, stretch.pair);
+      (is_within ? within : crossing).push_back(Json::array({stretch.pair, stretch.time}));
+    }
+    json["collisions"] = std::move(crossing);
+    json["enclosures"] = std::move(within);
   }
   std::string text = json.dump();
   text.pop_back();

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/verify/referee.h"
+#include "renderer/verify/provable.h"
 
 namespace minkray {
 
@@ -16,11 +16,8 @@ struct ProofInputs {
   std::vector<std::filesystem::path> files = {};  ///< files to store the SHA-256 of
 };
 
-/// `verdict` must have stored its planes, and be free or collides; no pair is without planes
-/// (provable.h). Throws BadInput for an undecided verdict, or if a body's shape is only known by
-/// its support mapping.
-std::string proof_text(const MotionVerdict& verdict, const JointPath& path,
-                       const std::vector<ClearanceBody>& bodies,
-                       const std::vector<RefereePair>& pairs, const ProofInputs& inputs);
+/// The verdict of `proven` must have stored its planes, and be free or collides. Throws BadInput
+/// for an undecided verdict, or if a body's shape is only known by its support mapping.
+std::string proof_text(const Provable& proven, const JointPath& path, const ProofInputs& inputs);
 
 }  // namespace minkray

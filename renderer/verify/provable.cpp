@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/mesh/leaves_below.h"
+#include "core/mesh/mesh_ray.h"
 #include "core/parts/one_part.h"
 #include "core/parts/parts_distance.h"
 #include "renderer/base/errors.h"
@@ -25,7 +26,7 @@ constexpr double share = 0.5;
 
 [[noreturn]] void no_proof(const ClearanceBody& a, const ClearanceBody& b, const char* why) {
   throw BadInput("proof: " + printable(a.name, 100) + " and " + printable(b.name, 100) + " " + why +
-                 "; --meshes hull uses hulls, and without -o PROOF.json they are verified anyway");
+                 "; --meshes hull uses hulls, and without a proof they are verified anyway");
 }
 
 /// The body with these triangles of its mesh only.
@@ -115,19 +116,14 @@ class Splitter {
       if (made_.bodies[pair.a].plane || made_.bodies[pair.b].plane) continue;
       const ClearanceBody a = made_.bodies[pair.a], b = made_.bodies[pair.b];
       if (!a.mesh && !b.mesh) continue;
-      const Affine<double> pose_a = pose_at(a, stretch.time), pose_b = pose_at(b, stretch.time);
-      PartPair parts;
-      signed_distance(a.parts(), pose_a, b.parts(), pose_b, {}, &parts);
-      const bool have_parts = (!a.mesh || parts.a != no_part) && (!b.mesh || parts.b != no_part);
-      // Bodies within each other need not have two parts that touch.
-      constexpr double touching = 1e-10;
-      const double most = pair.margin + touching * (a.reach() + b.reach());
-      if (!have_parts || !(signed_distance(OnePart(a.parts(), parts.a).shape(), pose_a,
-                                           OnePart(b.parts(), parts.b).shape(), pose_b)
-                               .upper <= most))
-        no_proof(a, b, "collide without crossing where the collision was found");
-      if (a.mesh) pair.a = add_triangle(a, parts.a);
-      if (b.mesh) pair.b = add_triangle(b, parts.b);
+      if (const auto crossing = crossing_in(stretch, pair)) {
+        stretch.time = crossing->time;
+        if (a.mesh) pair.a = add_triangle(a, crossing->parts.a);
+        if (b.mesh) pair.b = add_triangle(b, crossing->parts.b);
+      } else {
+        pair = enclosing(pair, stretch.time);
+        made_.enclosures.push_back(made_.pairs.size());
+      }
       stretch.pair = made_.pairs.size();
       made_.pairs.push_back(pair);
     }
@@ -199,6 +195,64 @@ class Splitter {
       made_.verdict.planes.push_back(plane);
     }
     return open;
+  }
+
+  struct Meeting {
+    double time = 0;
+    PartPair parts = {};
+    bool crosses = false;   ///< two parts are closer than the margin
+    bool encloses = false;  ///< one body is within the other, and they do not cross
+  };
+
+  Meeting meeting_at(const RefereePair& pair, double time) const {
+    const ClearanceBody &a = made_.bodies[pair.a], &b = made_.bodies[pair.b];
+    const Affine<double> pose_a = pose_at(a, time), pose_b = pose_at(b, time);
+    Meeting meeting{time};
+    const SignedDistance found =
+        signed_distance(a.parts(), pose_a, b.parts(), pose_b, {}, &meeting.parts);
+    const auto& [part_a, part_b] = meeting.parts;
+    constexpr double touching = 1e-10;
+    const double most = pair.margin + touching * (a.reach() + b.reach());
+    meeting.crosses = (!a.mesh || part_a != no_part) && (!b.mesh || part_b != no_part) &&
+                      signed_distance(OnePart(a.parts(), part_a).shape(), pose_a,
+                                      OnePart(b.parts(), part_b).shape(), pose_b)
+                              .upper <= most;
+    meeting.encloses = !meeting.crosses && found.status == SignedStatus::overlapping;
+    return meeting;
+  }
+
+  /// Searches the stretch for a moment at which the bodies cross. One that is apart at an end of
+  /// the stretch and within the other later has crossed it in between.
+  std::optional<Meeting> crossing_in(const Stretch& stretch, const RefereePair& pair) const {
+    if (const Meeting found = meeting_at(pair, stretch.time); found.crosses) return found;
+    constexpr int most_halvings = 50;
+    for (const double end : {stretch.begin, stretch.end}) {
+      const Meeting outer = meeting_at(pair, end);
+      if (outer.crosses) return outer;
+      if (outer.encloses) continue;
+      double apart = end, within = stretch.time;
+      for (int i = 0; i < most_halvings; ++i) {
+        const Meeting middle = meeting_at(pair, apart + (within - apart) / 2);
+        if (middle.crosses) return middle;
+        (middle.encloses ? within : apart) = middle.time;
+      }
+    }
+    return std::nullopt;
+  }
+
+  /// The pair with the body first that encloses a part of the other.
+  RefereePair enclosing(const RefereePair& pair, double time) {
+    for (const auto& [outer, inner] : {std::pair(pair.a, pair.b), {pair.b, pair.a}}) {
+      const ClearanceBody one = made_.bodies[outer], other = made_.bodies[inner];
+      if (!one.mesh) continue;
+      const Affine<double> pose = pose_at(one, time);
+      const Vec3<double> point = pose_at(
+          other, time)(other.mesh ? other.mesh->corner(0, 0) : Vec3<double>(other.own_middle()));
+      if (!is_within(*one.mesh, pose.linear.transpose() * (point - pose.translation))) continue;
+      return {outer, other.mesh ? add_triangle(other, 0) : inner, pair.margin};
+    }
+    no_proof(made_.bodies[pair.a], made_.bodies[pair.b],
+             "collide without crossing or enclosing each other where the collision was found");
   }
 
   /// Pose of the body's frame in the world.

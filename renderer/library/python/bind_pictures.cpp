@@ -109,14 +109,23 @@ py::dict clearance(const Scene& scene, const Scene::Group& robot, const Doubles&
 }
 
 py::dict verify(const Scene& scene, const Scene::Group& robot, const Doubles& path,
-                const Doubles& rates, double margin, double tolerance, std::size_t budget,
-                bool only_obstacles, int threads) {
+                const Doubles& rates, const Doubles& accelerations, double margin, double tolerance,
+                std::size_t budget, bool only_obstacles, const std::string& proof, int threads) {
   if (path.ndim() != 2) throw py::value_error("path: must have the shape (rows, joint values)");
   const bool has_rates = rates.size() > 0;
   if (has_rates && rates.size() != path.size())
     throw py::value_error("rates: must have the shape of the path");
-  const minkray_verdict_options options = {sizeof options,         tolerance, margin, budget,
-                                           only_obstacles ? 1 : 0, threads};
+  const bool has_accelerations = accelerations.size() > 0;
+  if (has_accelerations && accelerations.size() != path.size())
+    throw py::value_error("accelerations: must have the shape of the path");
+  const minkray_verdict_options options = {sizeof options,
+                                           tolerance,
+                                           margin,
+                                           budget,
+                                           only_obstacles ? 1 : 0,
+                                           threads,
+                                           has_accelerations ? accelerations.data() : nullptr,
+                                           proof.empty() ? nullptr : proof.c_str()};
   minkray_verdict found = {};
   int code = MINKRAY_OK;
   {

@@ -249,6 +249,22 @@ class Paths(unittest.TestCase):
         cubic = scene.verify(arm, [[0, 0], [0.5, 1]], rates=[[0.5, 1], [0.5, 1]])
         self.assertEqual(straight.status, cubic.status)
         self.assertAlmostEqual(straight.upper, cubic.upper, delta=0.03 * abs(straight.upper))
+        quintic = scene.verify(arm, [[0, 0], [0.5, 1]], rates=[[0.5, 1], [0.5, 1]],
+                               accelerations=np.zeros((2, 2)))
+        self.assertAlmostEqual(straight.upper, quintic.upper, delta=0.03 * abs(straight.upper))
+        with self.assertRaisesRegex(mk.Error, "accelerations: must have rates"):
+            scene.verify(arm, [[0, 0], [0.5, 1]], accelerations=np.zeros((2, 2)))
+
+    def test_proofs_are_written(self):
+        scene = mk.Scene()
+        arm = scene.add_urdf(ARM)
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "proof.json")
+            verdict = scene.verify(arm, [[0, 0], [0.5, 1]], proof=file)
+            with open(file, encoding="utf-8") as proof:
+                self.assertEqual(json.load(proof)["status"], verdict.status.name.lower())
+            with self.assertRaisesRegex(mk.Error, "none"):
+                scene.verify(arm, [[0, 0], [0.5, 1]], proof=os.path.join(folder, "none", "p.json"))
 
     def test_mistakes_are_told(self):
         scene = mk.Scene()

@@ -292,6 +292,12 @@ TEST(LibraryScene, motions_are_judged) {
   EXPECT_EQ(bulge.status, mk::motion_free);
   EXPECT_NEAR(bulge.upper, 1.25 - 8 * 4.0 / 27, 0.001);
   EXPECT_NEAR(bulge.row, 1.0 / 3, 0.02);
+  // From rest to rest with the acceleration a at both ends it swings out by a/2 s^2 (1 - s)^2.
+  const std::vector<double> rest = {0, 0}, pushed = {32, 32};
+  const mk::Verdict quintic = both.scene.verify(both.robot, there, 2, rest, 0, pushed);
+  EXPECT_EQ(quintic.status, mk::motion_free);
+  EXPECT_NEAR(quintic.upper, 0.25, 0.003);
+  EXPECT_THROW(both.scene.verify(both.robot, there, 2, {}, 0, pushed), mk::Error);
 }
 
 /// The pose was taken, and nothing moved.

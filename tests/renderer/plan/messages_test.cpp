@@ -135,6 +135,39 @@ TEST(Trajectories, mistakes_have_their_line_and_key) {
   EXPECT_NE(else_where.find("must be a trajectory"), std::string::npos) << else_where;
 }
 
+/// "velocites" read as no velocities, and a cubic as a straight line.
+TEST(Trajectories, misspelt_keys_are_mistakes_and_unknown_ones_are_not) {
+  const std::string begin = "joint_names: [turn]\npoints:\n";
+  const std::string required = mistakes_of_plan(begin + "  - postions: [0]\n");
+  EXPECT_NE(required.find("plan.yaml: line 3: /points/0/postions: unknown key (did you mean "
+                          "\"positions\"?)"),
+            std::string::npos)
+      << required;
+  const std::string optional = mistakes_of_plan(begin + "  - positions: [0]\n    velocites: [1]\n");
+  EXPECT_NE(optional.find("plan.yaml: line 4: /points/0/velocites: unknown key (did you mean "
+                          "\"velocities\"?)"),
+            std::string::npos)
+      << optional;
+  EXPECT_NE(mistakes_of_plan("joint_trajctory: {joint_names: [turn], points: []}\n")
+                .find("did you mean \"joint_trajectory\"?"),
+            std::string::npos);
+  EXPECT_NE(mistakes_of_plan(R"({"start_sate": {}, "joint_trajectory": {"joint_names": ["turn"],
+      "points": [{"positions": [0]}]}})")
+                .find("line 1: /start_sate: unknown key"),
+            std::string::npos);
+  EXPECT_EQ(mistakes_of_plan(begin + "  - {positions: [0], effort: [], jerk_limit: 3}\n"
+                                     "vendor: {name: x}\n"),
+            "");
+}
+
+TEST(Trajectories, velocities_without_times_are_noted) {
+  const Trajectory read = trajectory_of(
+      "joint_names: [turn]\npoints: [{positions: [0], velocities: [1]}, {positions: [1]}]\n",
+      robot_model());
+  ASSERT_EQ(read.notes.size(), 1u);
+  EXPECT_NE(read.notes[0].find("velocities are ignored"), std::string::npos);
+}
+
 TEST(Trajectories, hostile_yaml_is_refused) {
   std::string laughs = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
   for (int i = 1; i < 12; ++i) {
@@ -320,6 +353,19 @@ TEST(PlanningScenes, what_is_wrong_is_told_with_its_line) {
                 .find("there is no frame \"nowhere\""),
             std::string::npos);
   EXPECT_NE(wrong("world: {octomap: {octomap: {data: [1, 2]}}}").find("octomaps are not read"),
+            std::string::npos);
+  const std::string carried =
+      "robot_state: {attached_collision_objects: [{link_name: arm, object: "
+      "{id: left, primitives: [{type: sphere, dimensions: [1]}]}}]}";
+  EXPECT_NE(wrong(carried).find("must not be the name of a link"), std::string::npos);
+  EXPECT_NE(wrong("world: {collision_objects: [{id: x, primitives: [{type: sphere, dimensions: "
+                  "[1]}], primitive_pose: []}]}")
+                .find("did you mean \"primitive_poses\"?"),
+            std::string::npos);
+  // 0 in ROS 1, which is half a turn, and 1 in ROS 2.
+  EXPECT_NE(wrong("world: {collision_objects: [{id: x, pose: {orientation: {z: 0.1}}, primitives: "
+                  "[{type: sphere, dimensions: [1]}]}]}")
+                .find("/pose/orientation/w: missing"),
             std::string::npos);
   EXPECT_NE(wrong("allowed_collision_matrix: {entry_names: [a, b], entry_values: [[true]]}")
                 .find("must have a row for each of the 2 names"),

@@ -230,6 +230,54 @@ TEST(VerifyVerb, pictures_and_pages_are_written) {
   EXPECT_EQ(begin_of("p.png").substr(1, 3), "PNG");
 }
 
+/// Meshes were shown as squares of six metres.
+TEST(VerifyVerb, pages_show_meshes) {
+  const TemporaryFolder folder;
+  write_swing(folder);
+  std::ofstream(folder / "mesh.yaml") << R"(world:
+  collision_objects:
+    - id: fin
+      meshes: [{vertices: [[3, 3, 0], [4, 3, 0], [3, 4, 0], [3, 3, 1], [5, 5, 5]],
+                triangles: [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]}]
+)";
+  const ProgramOutcome outcome =
+      run_shell("cd '" + folder / "" +
+                "' && $MINKRAY verify --robot swing.urdf --scene mesh.yaml --trajectory past.yaml "
+                "-o p.html && grep -c '\"t\":\\[0,2,1,0,1,3,1,2,3,0,3,2\\]' p.html");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+}
+
+/// A tip that runs into a wall was shown from behind the wall.
+TEST(VerifyVerb, pictures_show_the_body_that_hits) {
+  const TemporaryFolder folder;
+  write_swing(folder);
+  for (const std::string side : {"1.55", "-1.55"}) {
+    std::ofstream(folder / "wall.yaml")
+        << "world: {collision_objects: [{id: wall, primitives: [{type: box, dimensions: [4, 0.02, "
+           "4]}], primitive_poses: [{position: [0, " +
+               side + ", 0]}]}]}\n";
+    std::ofstream(folder / "into.yaml")
+        << "joint_names: [turn, out]\npoints: [{positions: [0, 0.3]}, {positions: [" +
+               std::string(side[0] == '-' ? "-" : "") + "1.5707963, 0.3]}]\n";
+    const ProgramOutcome outcome =
+        run_shell("cd '" + folder / "" +
+                  "' && $MINKRAY verify --robot swing.urdf --scene wall.yaml --trajectory "
+                  "into.yaml -o p.pfm -s 1");
+    ASSERT_EQ(outcome.exit_code, 1) << outcome.out << outcome.err;
+    std::ifstream file(folder / "p.pfm", std::ios::binary);
+    std::string format, scale;
+    int width = 0, height = 0, orange = 0;
+    file >> format >> width >> height >> scale;
+    file.get();
+    std::vector<float> pixels(static_cast<std::size_t>(3 * width * height));
+    file.read(reinterpret_cast<char*>(pixels.data()),
+              static_cast<std::streamsize>(pixels.size() * sizeof(float)));
+    for (std::size_t i = 0; i < pixels.size(); i += 3)
+      orange += pixels[i] > 0.02f && pixels[i] > 3 * pixels[i + 2] ? 1 : 0;
+    EXPECT_GT(orange, 100) << side;
+  }
+}
+
 /// A Python that has NumPy; empty if there is none.
 std::string python_with_numpy() {
   for (const std::string python : {"python3", "/usr/bin/python3"})
@@ -302,6 +350,24 @@ TEST_F(Proofs, are_of_the_files_that_were_verified) {
   const ProgramOutcome outcome = check("proof.json");
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_NE(outcome.out.find("past.yaml: was changed"), std::string::npos) << outcome.out;
+}
+
+TEST_F(Proofs, that_cannot_be_read_are_not_wrong) {
+  EXPECT_EQ(check("none.json").exit_code, 3);
+  EXPECT_EQ(check(".").exit_code, 3);
+  EXPECT_EQ(check("").exit_code, 2);
+  EXPECT_EQ(check("past.yaml").exit_code, 1);
+  std::ofstream(folder_ / "list.json") << R"([1e999,"sha256":")" << std::string(64, '0') << "\"}\n";
+  EXPECT_EQ(check("list.json").exit_code, 1);
+  // A name that is a number was the program's own output, which was read and closed.
+  ASSERT_EQ(verify(folder_, "--trajectory past.yaml -o proof.json").exit_code, 0);
+  const ProgramOutcome output = run_shell("cd '" + folder_ / "" + "' && " + python_ + R"( -c '
+import hashlib, re
+text = open("proof.json").read()
+text = re.sub("\"name\":\"[^\"]*\",\"sha256\"", "\"name\":1,\"sha256\"", text[:text.rindex(",\"sha256")])
+print(text + ",\"sha256\":\"" + hashlib.sha256(text.encode()).hexdigest() + "\"}")' > named.json)");
+  ASSERT_EQ(output.exit_code, 0) << output.err;
+  EXPECT_EQ(check("named.json").out, "named.json: does not hold: files: must have names\n");
 }
 
 TEST_F(Proofs, with_a_changed_digit_are_refused_unless_they_are_true) {

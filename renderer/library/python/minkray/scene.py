@@ -543,7 +543,7 @@ class Scene(PairsOfScene):
                                             bool(jac), _threads(threads)))
 
     def verify(self, robot, path, rates=None, margin=0.0, tolerance=0.01, only_obstacles=False, threads=0,
-               *, budget=4000):
+               *, budget=4000, accelerations=None, proof=None):
         """Whether a robot's motion is free of collisions at all times, proven.
 
         Parameters
@@ -565,6 +565,11 @@ class Scene(PairsOfScene):
             0 for one a core.
         budget : int
             Distances of a pair in a step; a motion that needs more is undecided.
+        accelerations : (K, J) array
+            As `rates`, which they need: the second derivatives. Joints then go as quintics.
+        proof : str or path
+            A file for a proof of what is free or collides, which ``minkray-check`` confirms; of an
+            undecided motion none is written.
 
         Returns
         -------
@@ -573,11 +578,20 @@ class Scene(PairsOfScene):
         """
         robot = robot_of(robot, self._scene)
         path = np.atleast_2d(array_of(path, "path"))
-        rates = np.zeros((0, 0)) if rates is None else np.atleast_2d(array_of(rates, "rates"))
         if path.ndim != 2:
             raise Error(f"path: must have the shape (rows, joint values) (got {path.shape})")
-        if rates.size and rates.shape != path.shape:
-            raise Error(f"rates: must have the shape of the path, {path.shape} (got {rates.shape})")
-        return Verdict(_minkray.verify(self._ready(), robot._group, path, rates,
+
+        def table(rows, name):
+            if rows is None:
+                return np.zeros((0, 0))
+            rows = np.atleast_2d(array_of(rows, name))
+            if rows.shape != path.shape:
+                raise Error(f"{name}: must have the shape of the path, {path.shape} (got {rows.shape})")
+            return rows
+
+        return Verdict(_minkray.verify(self._ready(), robot._group, path, table(rates, "rates"),
+                                       table(accelerations, "accelerations"),
                                        number_of(margin, "margin"), number_of(tolerance, "tolerance"),
-                                       int(budget), bool(only_obstacles), _threads(threads)))
+                                       whole_number_of(int(budget), "budget"), bool(only_obstacles),
+                                       name_of(proof, "proof") if proof is not None else b"",
+                                       _threads(threads)))
