@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A camera, as scene files say it.
+// The camera of a scene file.
 #pragma once
 
 #include <array>

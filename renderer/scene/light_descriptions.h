@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lights, as scene files say them: one struct a light, the list of all at the end.
+// Lights of scene files: one struct per light; the list of all is at the end.
 #pragma once
 
 #include <optional>
@@ -72,8 +72,8 @@ struct EnvironmentLight {
   }
 };
 
-/// Light from all around, by a picture of the whole sphere. It shares its name with the plain one:
-/// a file tells them apart.
+/// Environment light given by a picture of the whole sphere. Shares its "type" with the plain
+/// EnvironmentLight; the key of the file distinguishes them.
 struct ImageSkyLight {
   PictureFile picture;
   double rotate_degrees = 0;
@@ -94,8 +94,8 @@ struct ImageSkyLight {
   }
 };
 
-/// The sky of a clear day and the sun in it. Where the sun stands is told by its direction, or by a
-/// time and a place, of which whoever reads the file makes the direction.
+/// Clear sky with the sun. The sun is given by its direction, or by time and location, which the
+/// reader converts to a direction.
 struct SunSkyLight {
   Vec3<double> sun = {0, -1, 1};
   std::string time = {};
@@ -128,7 +128,8 @@ struct SunSkyLight {
   }
 };
 
-/// What "type" may say of a light; where two share a name that which is told by a key comes first.
+/// Values of "type" for lights. If two share a name, the one that needs a key (`told_by`) comes
+/// first.
 using Light =
     std::variant<DirectionalLight, PointLight, ImageSkyLight, EnvironmentLight, SunSkyLight>;
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What things are made of, as scene files say it: one struct a material, the list of all at the
-// end.
+// Materials of scene files: one struct per material; the list of all is at the end.
 #pragma once
 
 #include <array>
@@ -229,7 +228,7 @@ struct MixMaterial {
   }
 };
 
-/// What "type" may say of a material.
+/// Values of "type" for materials.
 using MaterialKind =
     std::variant<LambertMaterial, GlossyMaterial, EmissiveMaterial, DielectricMaterial,
                  ConductorMaterial, PrincipledMaterial, TranslucentMaterial, MixMaterial>;
@@ -241,7 +240,7 @@ struct Material {
   RayKinds visible_to = all_ray_kinds;  ///< as an object's
 };
 
-/// Whether a colour of it changes from place to place; not of what a mixture is made of.
+/// True if one of its colours is a texture. The parts of a mixture do not count.
 inline bool has_texture(const Material& material) {
   return std::visit(
       []<class M>(const M& kind) {
@@ -255,7 +254,7 @@ inline bool has_texture(const Material& material) {
       material.kind);
 }
 
-/// Whether its colour or its relief does.
+/// True if it has a texture or a relief.
 inline bool is_painted(const Material& material) {
   return has_texture(material) || material.relief.any();
 }

@@ -25,7 +25,7 @@ Affine<double> read_transform(ObjectReader& object) {
   return pose;
 }
 
-/// What an object without a name is called after.
+/// Base of the name of an object without a name.
 std::string kind_of(const Json& object) {
   for (const char* key : {"mesh", "height_field"})
     if (object.contains(key)) return key;

@@ -56,7 +56,7 @@ RayKinds read_visible_to(ObjectReader& object) {
 void check_visible(const Scene& scene, std::uint32_t material, RayKinds visible_to,
                    const ObjectReader& object) {
   constexpr RayKinds bring_light = shadow_rays | scattered_rays;
-  if (material >= scene.materials.size()) return;  // a mistake that has been told of
+  if (material >= scene.materials.size()) return;  // already reported
   const Material& its = scene.materials[material];
   if ((visible_to & its.visible_to & bring_light) == bring_light || !may_shine(scene, its.kind))
     return;

@@ -42,8 +42,8 @@ void add_members(Json& object) {
   });
 }
 
-/// The schema of one of several described structs; `amend(schema of S's object)` adds what they
-/// have beside their own parameters.
+/// Schema of one of several described structs. `amend(schema of S's object)` adds keys that are not
+/// parameters.
 template <class Variant, class Amend>
 Json tagged_schema(std::string_view doc, Amend&& amend) {
   Json any_of = Json::array();
@@ -76,7 +76,7 @@ Json list_of(const char* definition) {
   return {{"type", "array"}, {"items", {{"$ref", std::string("#/$defs/") + definition}}}};
 }
 
-/// What the keys of a described struct hold: those of its parameters that can change.
+/// Schema of the keys of a described struct: its parameters that can change.
 template <class S>
 Json keys_schema(bool has_intensity) {
   Json key = object_schema("Some of its values at a time; between keys they go along lines.");
@@ -96,8 +96,8 @@ Json keys_schema(bool has_intensity) {
   return {{"type", "array"}, {"items", std::move(key)}, {"minItems", 1}};
 }
 
-/// What version 1 asks for that later ones leave to defaults. Keys of later versions are refused
-/// when a file is read.
+/// Keys that version 1 requires and later versions do not. Keys of later versions are rejected when
+/// a file is read.
 Json version_one_schema() {
   Json schema;
   schema["required"] = {"camera", "lights", "materials", "objects"};
@@ -221,7 +221,7 @@ Json scene_schema() {
   Json& definitions = schema["$defs"];
   definitions["camera"] = described_object(object_schema(CameraDescription::doc), [](Json& o) {
     add_members<CameraDescription>(o);
-    o["required"] = Json::array();  // those of version 1 are told there
+    o["required"] = Json::array();  // version_one_schema() has those of version 1
     o["properties"]["keys"] = keys_schema<CameraDescription>(false);
   });
   definitions["rotation"] = rotation_schema();

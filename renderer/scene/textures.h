@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Colours that change from place to place, as scene files say it: one struct a texture, the list of
-// all at the end. Shapes need no parametrisation: a texture is a function of the place in the
-// object's frame, or of a plane that a mapping takes the place to.
+// Textures of scene files: one struct per texture; the list of all is at the end. Shapes need no
+// parametrisation: a texture is a function of the point in the object's frame, or of a mapping of
+// that point to a plane.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ namespace minkray {
 /// Linear RGB.
 using Colour = Vec3<double>;
 
-/// How places become places of a plane. Every convex body is star-shaped around a point of its
-/// inside, so that the directions from there tell all places of its surface apart.
+/// Maps points to a plane. Every convex body is star-shaped around an interior point, so the
+/// direction from that point identifies each surface point.
 struct Mappings {
   static constexpr std::string_view what = "a mapping";
   static constexpr std::array<std::string_view, 5> names = {"radial", "box", "planar", "normal",
@@ -58,7 +58,7 @@ struct ImageTexture {
   }
 };
 
-/// What textures of two colours have in common.
+/// Parameters of all textures with two colours.
 struct TwoColours {
   Colour a = Colour::Constant(0.8), b = Colour::Constant(0.15);
   double scale = 1;
@@ -126,7 +126,7 @@ struct WoodTexture : TwoColours {
   static constexpr auto fields() { return two_colour_fields<WoodTexture>(); }
 };
 
-/// What "type" may say of a texture.
+/// Values of "type" for textures.
 using TextureKind = std::variant<ImageTexture, CheckerTexture, GridTexture, GradientTexture,
                                  NoiseTexture, MarbleTexture, WoodTexture>;
 

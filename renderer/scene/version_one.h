@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What scene files of version 1 may not hold, since programs that know that version alone could not
-// read it.
+// Checks that a scene file of version 1 uses no later keys, which programs for version 1 cannot
+// read.
 #pragma once
 
 #include "renderer/json/json.h"
@@ -8,8 +8,8 @@
 
 namespace minkray {
 
-/// Adds a mistake at each key or value of version 2 that tells which version to write. Other
-/// mistakes are not looked for.
+/// Adds a mistake at each key or value of version 2, with the version to write. Other mistakes are
+/// ignored.
 void refuse_version_two(const Json& scene, Mistakes& mistakes);
 
 }  // namespace minkray

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which rays meet a thing in the scene, and which go through it.
+// Kinds of rays that an object is visible to.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace minkray {
 
-/// Rays that pictures tell apart, as bits of RayKinds.
+/// Kinds of rays in pictures, as bits of RayKinds.
 inline constexpr RayKinds camera_rays = 1, shadow_rays = 2, scattered_rays = 4;
 
 struct RayKindsName {
