@@ -95,7 +95,7 @@ void ImageArguments::add_to(const Verb& verb, const std::string& suffix) {
   verb.add_option("-r,--resolution", resolution, "Size in pixels, instead of the scene's")
       .takes("WxH");
   verb.add_option("--camera-file", camera_file,
-                  "Lens and size of a calibrated camera (JSON), at the scene's camera")
+                  "Lens and size of a calibrated camera (JSON), at the scene camera's pose")
       .reads_file();
   verb.add_option("-s,--spp", samples, "Samples per pixel").between(1, 1 << 24).show_default();
   verb.add_option("-t,--threads", threads, "Threads; 0: one per core")

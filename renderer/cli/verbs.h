@@ -49,7 +49,7 @@ inline constexpr VerbRow verbs[] = {
      "minkray-tools",
      {"minkray cast queries.jsonl", "minkray cast - --certify < queries.jsonl"}},
     {"scan",
-     "Cast a sensor's rays at a scene: lidars, depths",
+     "Scan a scene with a sensor: lidar, depth camera",
      "minkray-tools",
      {"minkray scan scene.json --pattern spinning:16x360 -o sweep.ply",
       "minkray scan robot.urdf --pinhole camera.json --on head -o depth.png"}},

@@ -239,7 +239,7 @@ class TrajectoryReader {
     }
     for (std::size_t i = 1; i < rows.size(); ++i)
       if (!(rows[i].time >= rows[i - 1].time))
-        return mistakes_.add(path, "times must rise: point " + std::to_string(i) +
+        return mistakes_.add(path, "times must increase: point " + std::to_string(i) +
                                        " is earlier than the one before it");
   }
 

@@ -25,10 +25,10 @@ struct DirectionalLight {
   static constexpr std::string_view doc = "Parallel light, as from the sun.";
   static constexpr auto fields() {
     using L = DirectionalLight;
-    return std::tuple{
-        Field{"direction", &L::direction, Unit::none, Range::any, "where the light travels to"},
-        Field{"color", &L::colour, Unit::none, Range::brightness,
-              "the irradiance (linear RGB) on a surface that faces it", true}};
+    return std::tuple{Field{"direction", &L::direction, Unit::none, Range::any,
+                            "the direction in which the light travels"},
+                      Field{"color", &L::colour, Unit::none, Range::brightness,
+                            "the irradiance (linear RGB) on a surface that faces it", true}};
   }
 };
 
@@ -45,7 +45,7 @@ struct PointLight {
   static constexpr auto fields() {
     using L = PointLight;
     return std::tuple{
-        Field{"position", &L::position, Unit::length, Range::any, "where the light is"},
+        Field{"position", &L::position, Unit::length, Range::any, "the light's position"},
         Field{"color", &L::colour, Unit::none, Range::brightness,
               "its radiant intensity (linear RGB): the irradiance at distance 1", true}};
   }
@@ -62,7 +62,7 @@ struct EnvironmentLight {
   }
 
   static constexpr std::string_view name = "environment";
-  static constexpr std::string_view doc = "Light from all around, as from the sky.";
+  static constexpr std::string_view doc = "Environment light, as from the sky.";
   static constexpr auto fields() {
     using L = EnvironmentLight;
     return std::tuple{Field{"zenith", &L::zenith, Unit::none, Range::brightness,
@@ -83,14 +83,14 @@ struct ImageSkyLight {
 
   static constexpr std::string_view name = "environment";
   static constexpr std::string_view told_by = "file";
-  static constexpr std::string_view doc = "Light from all around, by a picture.";
+  static constexpr std::string_view doc = "Environment light from a picture.";
   static constexpr auto fields() {
     using L = ImageSkyLight;
     return std::tuple{Field{"file", &L::picture, Unit::none, Range::any,
-                            "a picture of the whole sphere: longitude by latitude, its middle "
-                            "towards +y, +x on its right"},
+                            "a picture of the whole sphere (longitude by latitude): its middle "
+                            "towards +y, +x to the right"},
                       Field{"rotate_degrees", &L::rotate_degrees, Unit::degrees, Range::any,
-                            "turned so far against the clock, seen from above", true}};
+                            "counter-clockwise rotation seen from above", true}};
   }
 };
 
@@ -107,22 +107,22 @@ struct SunSkyLight {
   void scale(double intensity) { strength *= intensity; }
 
   static constexpr std::string_view name = "sun_sky";
-  static constexpr std::string_view doc = "A clear day's sky and its sun (Preetham et al. 1999).";
+  static constexpr std::string_view doc = "Clear sky with the sun (Preetham et al. 1999).";
   static constexpr auto fields() {
     using L = SunSkyLight;
     return std::tuple{
         Field{"sun", &L::sun, Unit::none, Range::any,
               "the direction towards the sun, above the horizon", true},
         Field{"time", &L::time, Unit::none, Range::any,
-              "instead of the direction: when it is, such as 2026-06-21T09:30+02:00 or "
+              "instead of the direction: date and time, such as 2026-06-21T09:30+02:00 or "
               "2026-06-21T07:30Z; +x is east and +y is north",
               true},
         Field{"latitude_degrees", &L::latitude_degrees, Unit::degrees, Range::any,
-              "with the time: where it is, positive in the north", true},
+              "with the time: the latitude, positive in the north", true},
         Field{"longitude_degrees", &L::longitude_degrees, Unit::degrees, Range::any,
-              "with the time: where it is, positive in the east", true},
+              "with the time: the longitude, positive in the east", true},
         Field{"turbidity", &L::turbidity, Unit::none, Range::at_least_one,
-              "how hazy it is: 2 very clear, 10 misty", true},
+              "the haze: 2 very clear, 10 misty", true},
         Field{"ground", &L::ground, Unit::none, Range::brightness,
               "the radiance (linear RGB) from below the horizon", true}};
   }

@@ -88,7 +88,7 @@ void read_binary(RegularFile& file, std::optional<std::size_t> count, std::size_
   const std::size_t expected = file.size() / row_bytes;
   if (const std::size_t rest = file.size() % row_bytes; rest != 0)
     fail("row", expected + 1,
-         "is cut off (got " + std::to_string(rest) + " of its " + std::to_string(row_bytes) +
+         "is truncated (got " + std::to_string(rest) + " of its " + std::to_string(row_bytes) +
              " bytes)");
   check_count(expected, count, most_rows);
   rows.reserve(expected);

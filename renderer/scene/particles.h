@@ -24,7 +24,7 @@ struct ParticleColumnDescription {
 };
 
 inline constexpr ParticleColumnDescription particle_columns[] = {
-    {ParticleColumn::position, "position", 3, "where the shape's origin is: x y z"},
+    {ParticleColumn::position, "position", 3, "the position of the shape's origin: x y z"},
     {ParticleColumn::rotation, "rotation", 4, "a quaternion x y z w of any length but zero"},
     {ParticleColumn::scale, "scale", 1, "a factor for all three axes of the shape, applied first"},
     {ParticleColumn::scales, "scales", 3, "a factor for each axis of the shape, applied first"},

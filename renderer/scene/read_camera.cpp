@@ -67,7 +67,7 @@ void CameraReader::read_keys() {
     const CameraDescription camera = made.at(made.keys[i].time);
     const Vec3<double> view = unit<double>(camera.look_at - camera.position);
     if (view.isZero())
-      mistakes_.add(path / i, "must not put the camera where it looks at");
+      mistakes_.add(path / i, "must not place the camera at look_at");
     else if (i > 0)
       check_turn(before, view, path / i, mistakes_);
     before = view;

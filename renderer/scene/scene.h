@@ -68,7 +68,7 @@ struct Background {
   Colour zenith = Colour::Constant(1);
   Colour nadir = Colour::Constant(1);
 
-  static constexpr std::string_view doc = "What a ray sees that meets nothing.";
+  static constexpr std::string_view doc = "Colour of rays that hit nothing.";
   static constexpr auto fields() {
     using B = Background;
     return std::tuple{

@@ -30,13 +30,12 @@ using Mapping = NameOf<Mappings>;
 
 namespace texture_doc {
 inline constexpr std::string_view scale =
-    "the length of one repeat; of the mappings radial and normal the part of the turn, of uv that "
-    "of "
-    "the coordinates";
+    "the length of one repeat; in turns for the mappings radial and normal, in texture coordinates "
+    "for uv";
 inline constexpr std::string_view mapping =
     "radial: by longitude and latitude around the object's origin; box: along the axis that the "
-    "surface faces most; planar: along z; normal: by the normal's longitude and latitude; uv: by "
-    "a mesh's texture coordinates; if left out by the place in space";
+    "surface faces most; planar: along z; normal: by the normal's longitude and latitude; uv: by a "
+    "mesh's texture coordinates; by default by position in space";
 }  // namespace texture_doc
 
 struct ImageTexture {
@@ -68,8 +67,8 @@ struct TwoColours {
 template <class T>
 constexpr auto two_colour_fields() {
   return std::tuple{
-      Field<T, Colour>{"a", &T::a, Unit::none, Range::zero_to_one, "the one colour", true},
-      Field<T, Colour>{"b", &T::b, Unit::none, Range::zero_to_one, "the other colour", true},
+      Field<T, Colour>{"a", &T::a, Unit::none, Range::zero_to_one, "the first colour", true},
+      Field<T, Colour>{"b", &T::b, Unit::none, Range::zero_to_one, "the second colour", true},
       Field<T, double>{"scale", &T::scale, Unit::length, Range::positive, texture_doc::scale, true},
       Field<T, Mapping>{"mapping", &T::mapping, Unit::none, Range::any, texture_doc::mapping,
                         true}};
@@ -77,7 +76,7 @@ constexpr auto two_colour_fields() {
 
 struct CheckerTexture : TwoColours {
   static constexpr std::string_view name = "checker";
-  static constexpr std::string_view doc = "Fields of two colours, or cubes.";
+  static constexpr std::string_view doc = "A checkerboard of two colours, or cubes.";
   static constexpr auto fields() { return two_colour_fields<CheckerTexture>(); }
 };
 
@@ -90,7 +89,7 @@ struct GridTexture : TwoColours {
     return std::tuple_cat(two_colour_fields<GridTexture>(),
                           std::tuple{Field<GridTexture, double>{
                               "width", &GridTexture::width, Unit::none, Range::zero_to_one,
-                              "of the lines, as a part of the scale", true}});
+                              "of the lines, as a fraction of the scale", true}});
   }
 };
 

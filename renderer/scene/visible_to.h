@@ -19,10 +19,9 @@ struct RayKindsName {
 };
 
 inline constexpr std::array<RayKindsName, 3> ray_kinds_names = {{
-    {camera_rays, "camera", "it is seen where nothing is between"},
-    {shadow_rays, "shadow", "it keeps the light of lamps from others"},
-    {scattered_rays, "scattered",
-     "it is seen in mirrors and through glass, and by rays that surfaces scatter"},
+    {camera_rays, "camera", "visible to the camera"},
+    {shadow_rays, "shadow", "casts shadows"},
+    {scattered_rays, "scattered", "visible in mirrors, through glass and to scattered light"},
 }};
 
 }  // namespace minkray

@@ -64,7 +64,7 @@ TEST_F(NothingLost, no_output_takes_the_place_of_an_input_or_another_output) {
     fails 4 render scene.json -s 1 -o b.png
     test -d b.png.checkpoint)");
   EXPECT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_NE(made.err.find("a.png.checkpoint: is no checkpoint"), std::string::npos) << made.err;
+  EXPECT_NE(made.err.find("a.png.checkpoint: not a checkpoint"), std::string::npos) << made.err;
 }
 
 /// The textures and the sky of a scene were written over.

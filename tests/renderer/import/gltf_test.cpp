@@ -300,7 +300,7 @@ TEST(Gltf, what_is_shown_again_and_again_is_told) {
   } catch (const std::runtime_error& error) {
     told = error.what();
   }
-  EXPECT_NE(told.find("/meshes: must show at most 200000 vertices, of 132 bytes of buffers (got "
+  EXPECT_NE(told.find("/meshes: must have at most 200000 vertices, of 132 bytes of buffers (got "
                       "200008)"),
             told.npos)
       << told;

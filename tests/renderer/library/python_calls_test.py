@@ -118,7 +118,7 @@ class Mistakes(unittest.TestCase):
                     lambda: scene.cast_rays(np.ma.masked_equal([[0.0, 0, 0, 1, 0, 0]], 0)),
                 "Scene.cast_rays: rays: must be an array of numbers (got list)": lambda: scene.cast_rays([[1], [2, 3]]),
                 "Scene.cast_rays: rays: must be an array of numbers (got NoneType)": lambda: scene.cast_rays(None),
-                "Scene.cast_rays: t_max: must be a number, or one for each ray":
+                "Scene.cast_rays: t_max: must be a number, or one per ray":
                     lambda: scene.cast_rays(ray, t_max=[1, 2]),
                 "Scene.cast_rays: rays[0].t_max: must be >= 0": lambda: scene.cast_rays(ray, t_max=-1),
                 "Scene.cast_rays: threads: must be from 0": lambda: scene.cast_rays(ray, threads=-1),

@@ -316,7 +316,7 @@ class Scene(PairsOfScene):
             try:
                 t_max = np.broadcast_to(t_max, rays.shape[:-1]).ravel() if t_max.ndim > 0 else t_max
             except ValueError:
-                raise Error(f"t_max: must be a number, or one for each ray (got the shape {t_max.shape} "
+                raise Error(f"t_max: must be a number, or one per ray (got the shape {t_max.shape} "
                             f"for rays of {rays.shape[:-1]})") from None
         rows = rays if rays.ndim == 2 else rays.reshape(-1, 6)
         return rows, t_max, rays.shape[:-1]
@@ -537,7 +537,7 @@ class Scene(PairsOfScene):
         robot = robot_of(robot, self._scene)
         path = np.atleast_2d(array_of(path, "path"))
         if path.ndim != 2:
-            raise Error(f"path: must have the shape (rows, joint values) (got {path.shape})")
+            raise Error(f"path: must have shape (rows, joint values) (got {path.shape})")
         return Clearance(_minkray.clearance(self._ready(), robot._group, path,
                                             number_of(tolerance, "tolerance"), bool(only_obstacles),
                                             bool(jac), _threads(threads)))
@@ -575,7 +575,7 @@ class Scene(PairsOfScene):
         path = np.atleast_2d(array_of(path, "path"))
         rates = np.zeros((0, 0)) if rates is None else np.atleast_2d(array_of(rates, "rates"))
         if path.ndim != 2:
-            raise Error(f"path: must have the shape (rows, joint values) (got {path.shape})")
+            raise Error(f"path: must have shape (rows, joint values) (got {path.shape})")
         if rates.size and rates.shape != path.shape:
             raise Error(f"rates: must have the shape of the path, {path.shape} (got {rates.shape})")
         return Verdict(_minkray.verify(self._ready(), robot._group, path, rates,
