@@ -152,7 +152,7 @@ class Mistakes(unittest.TestCase):
                 "signed_distance: a: must be a Shape (got int)": lambda: mk.signed_distance(5, None, ball, None),
                 "signed_distance: b[1]: must be a Shape": lambda: mk.signed_distance(ball, None, [ball, 5], None),
                 "signed_distance: pose_b: must be a (4, 4)": lambda: mk.signed_distance(ball, None, ball, [1, 2]),
-                "signed_distance: a, pose_a, b, pose_b: must have shapes that go together (got (2,), (3,), (), ())":
+                "signed_distance: a, pose_a, b, pose_b: must have shapes that broadcast together (got (2,), (3,), (), ())":
                     lambda: mk.signed_distance([ball] * 2, [np.eye(4)] * 3, ball, None),
                 "signed_distance: tolerance: must be": lambda: mk.signed_distance(ball, None, ball, None, -1),
                 "time_of_impact: t_max: must be finite":
