@@ -119,7 +119,7 @@ void GltfDocument::check_extensions() {
     const std::string name = one.get<std::string>();
     if (!is_read(name) && !is_about_looks(name))
       mistakes_.add(JsonPath() / "extensionsRequired" / i,
-                    "the extension " + printable(name, 60) + " is not read");
+                    "the extension " + printable(name, 60) + " is not supported");
   }
 }
 
@@ -203,7 +203,7 @@ std::optional<std::filesystem::path> GltfDocument::file_of_uri(const std::string
     return std::nullopt;
   }
   const std::filesystem::path name = percent_decoded(uri);
-  // A buffer may be any bytes: what somebody's file names is not read out of other folders.
+  // A buffer may be any bytes: what somebody's file names is not supported out of other folders.
   if (name.is_absolute() || std::ranges::find(name, std::filesystem::path("..")) != name.end()) {
     mistakes_.add(path, "must be a file in the same folder or below (" + printable(uri, 100) + ")");
     return std::nullopt;

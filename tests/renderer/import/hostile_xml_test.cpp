@@ -32,7 +32,7 @@ TEST(HostileXml, is_refused_with_a_reason) {
       mistakes_of("<robot><link name='a'/><link name='b'/><joint name='1' type='fixed'><parent "
                   "link='a'/><child link='b'/></joint><joint name='2' type='fixed'><parent "
                   "link='b'/><child link='a'/></joint></robot>")
-          .find("in a circle"),
+          .find("in a cycle"),
       std::string::npos);
 }
 

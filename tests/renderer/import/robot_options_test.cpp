@@ -209,7 +209,7 @@ TEST_F(RobotOptions, an_sdf_model_is_the_file_that_its_config_names) {
   ASSERT_EQ(imported.scene.objects.size(), 1u);
   EXPECT_EQ(imported.scene.objects[0].shape.support(Vec3<double>(1, 0, 0)).x(), 2);
   write("models/cup/model.config", "<model><sdf version='1.6'>gone.sdf</sdf></model>");
-  EXPECT_NE(refusal(file, options).find("names no <sdf> file that is there (got \"gone.sdf\")"),
+  EXPECT_NE(refusal(file, options).find("no <sdf> file found (got \"gone.sdf\")"),
             std::string::npos);
 }
 
