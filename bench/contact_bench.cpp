@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Distances, penetration depths and times of impact of all pairs of nine shapes, compared with
-// FCL, libccd, Bullet, ODE and MuJoCo, with Minkray's older functions, and with the speed goals:
-//
-//   contact-bench [--rounds N] [--queries N] [NAME]   only pairs whose name has NAME in it
-//
-// Prints a table; exit code 1 if something is missed. One thread, processor time, the best round.
-// Poses are converted to each library's own types beforehand; making the shapes is not counted.
+// Distances, penetration depths and times of impact of all pairs of nine shapes, compared with FCL,
+// libccd, Bullet, ODE, MuJoCo, Minkray's older functions and the speed goals. Prints a table of the
+// best round in processor time, one thread; exit code 1 if a goal is missed.
+//   contact-bench [--rounds N] [--queries N] [NAME]   NAME: only pairs whose name contains it
+// Not timed: making the shapes, converting poses to each library's types.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

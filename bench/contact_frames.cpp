@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Benefit of a memory of pairs from frame to frame (core/pair/pair_memory.h), on real motion:
-//
+// Benefit of a memory of pairs from frame to frame (core/pair/pair_memory.h) on real motion:
 //   contact-frames [--bodies N] [--frames N] [ROBOT JOINTS.csv]
-//
-// Bodies that tumble through a room, in each frame all pairs whose boxes are nearer than a tenth
-// of a body: their signed distances, their overlap alone, and whether they touch within the frame;
-// with ROBOT the distances of all pairs of links along a path as `minkray clearance` takes it.
-// Each is computed from the beginning and with a memory for each pair, in turns, one thread,
-// processor time.
+// Each query runs without and with a memory per pair, in turns: one thread, processor time. Bodies
+// tumble through a room; with ROBOT, links move along a path as `minkray clearance` takes it.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -29,6 +24,8 @@ namespace {
 using namespace minkray;
 
 /// Cost of one query about one pair, without and with its memory.
+/// Queries: signed distance, overlap, contact within the frame; of tumbling bodies in each frame
+/// for all pairs whose boxes are nearer than a tenth of a body.
 struct Cost {
   double anew = 0, kept = 0;  ///< nanoseconds of all queries
   long supports_anew = 0, supports_kept = 0, queries = 0;

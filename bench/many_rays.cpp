@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// minkray-many-rays: tens of millions of casts at every shape that is measured, each compared with
-// an oracle in long double (tests/oracle/line_entry.h): errors, false hits and misses, casts that
-// did not converge; the number that the filter left to later stages, and the greatest error by the
-// bound that came with it. Not timed.
-//   many_rays [RAYS [NAME]]   RAYS random rays (default 100,000), and a tenth as many of each other
-//                             kind, for shapes whose names contain NAME
+// Compares millions of casts per measured shape with an oracle in long double
+// (tests/oracle/line_entry.h): errors, false hits and misses, casts without convergence, casts that
+// the filter left to later stages, and the largest error relative to its bound.
+//   many_rays [RAYS [NAME]]   RAYS random rays (default 100,000), a tenth as many of other kinds;
+//                             only shapes whose name contains NAME
 #include <algorithm>
 #include <iomanip>
 #include <iostream>

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Compares the installed library, as its users get it, with Embree 3 and Bullet:
-//
-//   library-bench [--rounds N] [--only REGEX] [--quick] [-o FILE] [--python COMMAND] [--commit
-//   TEXT]
-//
-// Prints a table; exit code 1 if a goal is missed or answers disagree. Each section runs in a
-// process of its own, so that none sees the heap or the threads of another.
+// Compares the installed library with Embree 3 and Bullet. Prints a table; exit code 1 if a goal is
+// missed or results disagree.
+//   library-bench [--rounds N] [--only REGEX] [--quick] [-o FILE] [--python CMD] [--commit TEXT]
+// Each section runs in its own process, so no section sees the heap or the threads of another.
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The ray cast viewed as clipping, after van den Bergen's later account of casting a ray on the
+// Ray cast as clipping, after van den Bergen's later description of casting a ray on the
 // configuration space obstacle: conservative advancement by supporting planes (Mirtich and Canny,
-// 1995). Every support point p along n excludes a part of the ray that cannot hold the hit point:
-//   1. n.r < 0: nothing before lambda_clip, a lower bound;
-//   2. n.r > 0: nothing after lambda_clip, an upper bound; below the lower bound the ray is
-//   rejected;
-//   3. n.r = 0: nothing is clipped, or all of it if the ray runs in front of the plane.
-// Any solver's iterations can be interpreted this way.
+// 1995). Any solver's iterations can be interpreted this way.
 #pragma once
 
 #include <limits>
@@ -15,6 +10,10 @@
 
 namespace minkray {
 
+/// Each support point p along n excludes a part of the ray that cannot contain the hit point:
+///   1. n.r < 0: nothing before lambda_clip, a lower bound;
+///   2. n.r > 0: nothing after lambda_clip; if that is below the lower bound, the ray is rejected;
+///   3. n.r = 0: nothing is clipped, or the whole ray if it runs in front of the plane.
 enum class ClipCase : unsigned char { lower_bound = 1, upper_bound = 2, parallel = 3 };
 
 template <class T>

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The "first solution" for casting a ray: Algorithm 1 of van den Bergen (2004), section 2. The ray
-// is clipped by the supporting plane at the object's point closest to x, again and again, and the
-// closest point is found by a GJK distance query nested in the loop: slow, and a reference for the
-// others.
-//
-// The paper's letters: c is the point of the object closest to x, n = x - c a normal at c.
-// Everything is relative to the centre of the shape's bounding ball, lambda counts from the closest
-// approach.
+// "First solution" for casting a ray: Algorithm 1 of van den Bergen (2004), section 2. The ray is
+// clipped repeatedly by the supporting plane at c, the object's point closest to x, which a nested
+// GJK distance query finds. Slow; a reference for the other solvers. In the paper, n = x - c is a
+// normal at c. Points are relative to the centre of the bounding ball; lambda is a length from
+// the ray's closest approach to that centre.
 #pragma once
 
 #include "core/gjk/gjk_distance.h"

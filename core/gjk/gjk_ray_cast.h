@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The GJK ray cast: Algorithm 3 of Gino van den Bergen, "Ray Casting against General Convex
-// Objects with Application to Continuous Collision Detection" (2004), section 4.
-//
-// The paper's letters: the ray is x = s + lambda r; p is a support point, w = x - p; P the support
-// points of the current simplex, Y = x - P; v is the simplex' point closest to the origin and the
-// direction of the next support; n is the last v that moved lambda. Everything is relative to the
-// centre of the shape's bounding ball, and lambda is a length counted from s, the ray's closest
-// approach to that centre.
+// GJK ray cast: Algorithm 3 of G. van den Bergen, "Ray Casting against General Convex Objects with
+// Application to Continuous Collision Detection" (2004), section 4. Letters: x = s + lambda r is
+// the ray; p a support point, w = x - p; P the simplex' support points, Y = x - P; v the simplex'
+// point closest to the origin and the next direction; n the last v that moved lambda. Points are
+// relative to the bounding ball's centre, lambda to the ray's closest approach.
 #pragma once
 
 #include <array>

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Johnson's distance subalgorithm, as van den Bergen (2004), section 3, gives it: for X a subset of
-// the vertices Y, v(aff X) = sum of D_i(X)/D(X) y_i, with
-//   D_i({i}) = 1,  D_j(X + {j}) = sum over i in X of D_i(X) (y_k - y_j).y_i  for any k in X,
-// and D(X) their sum. The smallest X that carries v is the one with D_i(X) > 0 for all i in X and
-// D_j(X + {j}) <= 0 for all others. The differences y_k - y_j are cached for as long as both
-// vertices live, whether or not the object is translated; the determinants are kept while it rests
-// and recomputed when x moves (section 4).
-//
-// Where rounding has spoilt the signs of the determinants no X may pass. The backup procedure of
-// Gilbert, Johnson and Keerthi (1988) then takes the closest v of all X with D_i(X) > 0.
+// Johnson's distance subalgorithm (van den Bergen, 2004, section 3): finds the simplex' point
+// closest to the origin from determinants of its subsets. Differences of vertices are cached as
+// long as both vertices are used; determinants are recomputed when x moves (section 4).
 #pragma once
 
 #include "core/gjk/simplex_vertices.h"
 
 namespace minkray {
 
+/// For X a subset of the vertices Y, v(aff X) = sum of D_i(X)/D(X) y_i, with
+///   D_i({i}) = 1,  D_j(X + {j}) = sum over i in X of D_i(X) (y_k - y_j).y_i  for any k in X,
+/// and D(X) their sum. The smallest X that carries v has D_i(X) > 0 for all i in X and
+/// D_j(X + {j}) <= 0 for all others. If rounding has changed signs of determinants, no X may pass.
+/// The backup procedure of Gilbert, Johnson and Keerthi (1988) then takes the closest v of all X
+/// with D_i(X) > 0.
 template <class T, int Dim>
 class JohnsonSubalgorithm : public SimplexVertices<T, Dim> {
   using Base = SimplexVertices<T, Dim>;

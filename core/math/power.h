@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Powers of numbers that are not negative, for one number or for a packet: the same operations and
-// so the same bits for both, which the C library's pow does not promise for packets. That one also
-// uses table look-ups, which packets would do lane by lane, and in long double the processor's
-// logarithms, whose last bits differ between makers.
-//
-// Computed from logarithm and exponential, each a power of two that is read off the bits times a
-// Taylor series. A power is precise to a few epsilon as long as its logarithm is of moderate size;
-// small powers lose digits relative to themselves, but none relative to 1.
+// Powers of nonnegative numbers with the same bits for one number and for a packet. The C library's
+// pow makes no such promise, and its long double logarithm differs between processors. A power is
+// accurate to a few epsilon if its logarithm is of moderate size; small powers lose digits relative
+// to themselves, but none relative to 1.
 #pragma once
 
 #include "core/math/vec.h"

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The loop that all solvers on jets share. A supporting plane in direction n clips the ray: a
-// rigorous lower bound of the hit. A model of the shape, made of the features that the support
-// mapping has shown so far, is hit later (where the features are parts of the shape, and else about
-// there), and its hit's normal is the next n. The two meet. docs/forms.md has the mathematics.
-//
-// W is a number, or a packet: then every lane is a ray of its own. Lanes that have ended go along
-// without effect.
+// The loop of all solvers on jets (docs/forms.md). A supporting plane in direction n gives a
+// rigorous lower bound of the hit. The ray hits a model, the hull of the features found so far,
+// later (about there, if features are not exact); that hit's normal is the next n. The search ends
+// when both meet. W is a number or a packet, one ray per lane. Finished lanes take part without
+// effect.
 #pragma once
 
 #include "core/query/observer.h"

@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The signed distance of two cores by branch and bound over directions: slower than all else, but
-// it needs no more than support points, takes every degeneracy, and proves its result.
-//
-// The signed distance is the maximum over all unit vectors n of g(n) = min n.c over c of C. Any n
-// gives a lower bound. For an upper one the sphere of directions is cut into triangles. With the
-// support points c_j of a triangle's corners, g(n) <= u(n) = min_j n.c_j. If u is negative, each
-// n.c_j is a convex function along great circles, so u is largest at a corner, or on a side where
-// two n.c_j are equal, or inside where all three are: a few candidates. If u is positive, the same
-// holds on the flat triangle, and u on the sphere is larger by the triangle's sagitta at most. The
-// triangle with the largest bound is halved until the bounds meet.
+// Signed distance of two cores by branch and bound over directions: the slowest method, but it
+// needs only support points, handles every degeneracy, and proves its result.
 #pragma once
 
 #include "core/pair/core_pair.h"
@@ -24,6 +16,14 @@ struct DirectionSearch {
 
 /// Starts from `known.lower` and `known.axis`. upper may be negative: minus the penetration depth.
 /// a and c are not found. `is_exhausted` if the bounds are further apart than requested.
+///
+/// The signed distance is the maximum over all unit vectors n of g(n) = min n.c over c of C. Any n
+/// gives a lower bound. For an upper one the sphere of directions is cut into triangles. With the
+/// support points c_j of a triangle's corners, g(n) <= u(n) = min_j n.c_j. If u is negative, each
+/// n.c_j is a convex function along great circles, so u is largest at a corner, or on a side where
+/// two n.c_j are equal, or inside where all three are: a few candidates. If u is positive, the same
+/// holds on the flat triangle, and u on the sphere is larger by the triangle's sagitta at most. The
+/// triangle with the largest bound is halved until the bounds meet.
 CoreDistance bound_by_directions(const CorePair& pair, const CoreDistance& known,
                                  const DirectionSearch& search = {});
 

@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The penetration depth of cores that overlap, by a polytope within C that grows around the origin
-// (G. van den Bergen, "Proximity Queries and Penetration Depth Computation on 3D Game Objects",
-// 2001): the face nearest to the origin gives way to the support point beyond it, until there is
-// none. For polytopes that is exact.
-//
-// Both bounds hold whatever rounding does to the faces. The plane through a support point bounds
-// the depth from above. From below it is bounded by the least distance d of a face, since the faces
-// are a closed surface that winds around the origin once: so it does around all points nearer to
-// the origin, and those are in the hull of its vertices, which are points of C. Growing keeps it
-// so: a face may give way to a point w if none of its points nor w is on the origin's side of a
-// plane that the origin is not on. So d may be found with any normal n, as the least n.y of the
-// three vertices, however far the three are from making a plane.
+// Penetration depth of overlapping cores by a polytope within C that grows around the origin (G.
+// van den Bergen, "Proximity Queries and Penetration Depth Computation on 3D Game Objects", 2001).
+// The face nearest to the origin is replaced by the support point beyond it, until there is none.
+// Exact for polytopes.
 #pragma once
 
 #include <algorithm>
@@ -21,6 +13,13 @@
 
 namespace minkray {
 
+/// Both bounds hold for any rounding of the faces. The plane through a support point bounds the
+/// depth from above. The least distance d of a face bounds it from below: the faces are a closed
+/// surface that winds around the origin once, so it also winds around all points nearer to the
+/// origin, and those are in the hull of its vertices, which are points of C. Growing preserves
+/// this: a face may be replaced by a point w if neither its points nor w are on the origin's side
+/// of some plane that does not contain the origin. So any normal n gives a valid d, the least n.y
+/// of the three vertices.
 template <CoreKind A, CoreKind B>
 class ExpandingPolytope {
  public:

@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The signed distance of two cores of revolution about parallel axes: a peg in its hole, a wheel
-// on its axle, concentric shells. If the two axes are one, all directions around it are equally
-// good: a search for one direction among all (a polytope, cells of the sphere) ends with a ring of
-// them, and needs a hundred thousand of them for ten digits.
-//
-// g(n) = min n.c over c of C is n.x minus a function of the angle between n and the axes only. The
-// n with the largest n.x at one angle is in the half plane from the axis towards x, so no other is
-// searched: by branch and bound as in direction_bounds.h, over arcs instead of triangles. Between
-// two directions g is no larger than n.c of either one's support point: two sinusoids; each is the
-// lower one on its own side of their crossing.
+// Signed distance of two cores of revolution about parallel axes: a peg in its hole, a wheel on its
+// axle, concentric shells. If the axes coincide, all directions around them are equally good, and a
+// search of all directions (a polytope, cells of the sphere) needs a hundred thousand of them.
 #pragma once
 
 #include <optional>
@@ -21,6 +14,12 @@ namespace minkray {
 /// if the bounds did not meet. The bounds allow for deviations from that; if these exceed the gap,
 /// the bounds hold and `is_exhausted`. `gap` is upper - lower, relative to the size and the
 /// distance of the middles. Starts from `known`; a and c are not found.
+///
+/// g(n) = min n.c over c of C is n.x minus a function of the angle between n and the axes. At each
+/// angle the n with the largest n.x is in the half plane from the axis towards x, so only that half
+/// plane is searched: by branch and bound as in direction_bounds.h, over arcs instead of triangles.
+/// Between two directions, g is at most n.c of either one's support point: two sinusoids, each the
+/// lower one on its own side of their crossing.
 std::optional<CoreDistance> bound_along_meridian(const CorePair& pair, const CoreDistance& known,
                                                  double gap);
 

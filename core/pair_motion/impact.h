@@ -1,17 +1,7 @@
 // SPDX-License-Identifier: MIT
-// When two bodies that move and turn first touch: conservative advancement (B. Mirtich,
-// "Impulse-based Dynamic Simulation of Rigid Body Systems", 1996, section 2.3), of second order,
-// with proven distances.
-//
-// From a time at which the bodies are apart, a plane between them is kept fixed. How far a body
-// reaches along the plane's normal n while it turns by an angle theta is h(n(tau)), h its support
-// function about its pivot and n(tau) the normal in its own frame, which moves on a great circle.
-// h is convex, so on the arc it is no more than what interpolates its values at the two ends, plus
-// (1/cos(theta/2) - 1) times the larger of them. So two gaps, at the beginning and at the end of a
-// step, prove that nothing touches in between, but for a term in theta^2: near the contact each
-// step leaves about the square of the time that was left before.
-//
-// Bodies that do not turn need no steps: swept_portal.h.
+// First contact of two bodies that move and turn: conservative advancement of second order with
+// proven distances (B. Mirtich, "Impulse-based Dynamic Simulation of Rigid Body Systems", 1996,
+// section 2.3). Bodies that do not turn need no steps (swept_portal.h).
 #pragma once
 
 #include "core/pair_distance/signed_distance.h"
@@ -75,6 +65,13 @@ struct ImpactOptions {
 /// The first contact of A and B at times from 0 to t_max. Bodies that touch at time 0 (to
 /// `touching`) are `inside` if they approach each other at the contact, or rest; if they part, the
 /// next contact is looked for.
+///
+/// A plane between the bodies is kept fixed from a time at which they are apart. While a body turns
+/// by an angle theta, its extent along the plane's normal n is h(n(tau)): h is its support function
+/// about its pivot, n(tau) the normal in its frame, which moves on a great circle. h is convex, so
+/// on the arc it is at most the interpolation of its values at the two ends, plus (1 / cos(theta/2)
+/// - 1) times the larger. So the gaps at the beginning and the end of a step prove that nothing
+/// touches in between, up to a term in theta^2. Near the contact, convergence is quadratic.
 Impact first_impact(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
                     const RigidMotion& motion_b, double t_max, const ImpactOptions& options = {});
 

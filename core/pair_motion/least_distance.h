@@ -1,16 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The least signed distance of two bodies while they move along a known path, between proven
-// bounds.
-//
-// At a time s a plane with normal n keeps the two apart by the gap g(n, s), which no choice of n
-// makes larger than their signed distance. For a fixed n it is the least, over pairs of points p of
-// A and q of B, of n.(q - p), and each of those bends by no more than q - p accelerates. So on
-// [s0, s1] the distance is at least
-//
-//   min(g(n, s0), g(n, s1)) - acceleration * (s1 - s0)^2 / 8   for any n, and
-//   (d(s0) + d(s1) - speed * (s1 - s0)) / 2                    as it changes no faster than speed.
-//
-// The interval with the least bound is halved until that is near the least distance seen.
+// Least signed distance of two bodies that move along a known path, between proven bounds.
 #pragma once
 
 #include <limits>
@@ -57,6 +46,16 @@ struct LeastDistance {
   bool is_settled = false;
 };
 
+/// Searches until the bounds are as near as `options` requires.
+///
+/// A plane with normal n separates the two by the gap g(n, s) at a time s, which is at most their
+/// signed distance. For a fixed n the gap is the least n.(q - p) over points p of A and q of B, and
+/// each of those bends by no more than q - p accelerates. So on [s0, s1] the distance is at least
+///
+///   min(g(n, s0), g(n, s1)) - acceleration * (s1 - s0)^2 / 8   for any n, and
+///   (d(s0) + d(s1) - speed * (s1 - s0)) / 2                    since `speed` bounds its rate.
+///
+/// The interval with the least bound is halved until the bound is near the least distance found.
 LeastDistance least_distance(const MovingPair& pair, const LeastDistanceOptions& options);
 
 /// The gap of two shapes along a unit vector n of the world, or a little less for rounding.

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The time of impact of curved cores to second order. Among all planes with normal n, n.u = -1 (u
-// along the motion), that keep C on one side, the last one met gives the time: a concave function
-// of n, the least of one for each feature of the surfaces (sliding_features.h). Around the current
-// n, each is t_i + q_i.m - m S m / 2, q_i its shadow and S the features' curvature; the m that is
-// best for the least of them comes from the dual, a quadratic program of at most four weights,
-// which is solved by going through all subsets (sequential quadratic programming).
+// Time of impact of curved cores to second order, by sequential quadratic programming. The planes
+// with normal n, n.u = -1 (u along the motion), that keep C on one side give a concave function of
+// n, whose maximum is the time: the least of one function per feature (sliding_features.h).
 #pragma once
 
 #include "core/pair_motion/swept_query.h"
 
 namespace minkray {
 
+/// Near the current n, feature i gives t_i + q_i.m - m S m / 2: q_i is its shadow and S the
+/// features' curvature. The best m for the least of them comes from the dual, a quadratic program
+/// of at most four weights, which is solved by trying all subsets.
 template <CoreKind A, CoreKind B>
 class SlidingPortal {
  public:

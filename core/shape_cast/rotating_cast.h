@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Continuous collision detection of bodies that also turn, by the approximation of van den Bergen
-// (2004), section 1: the orientation changes at once at fixed steps, positions are interpolated.
-// Within a step each orientation is the one of the step's middle, so a point at distance rho from
-// its body's pivot is at most 2 rho sin(|omega| h / 4) <= rho |omega| h / 2 from where it truly is,
-// h the step's length: the two bodies' sum of it is `position_error`.
-//
-// That bound is made good use of: the cast is repeated with the obstacle grown by position_error,
-// whose first contact is never later than the true one. So t_lo is rigorous; t is the
-// approximation's.
+// Continuous collision detection of turning bodies by the approximation of van den Bergen (2004),
+// section 1: orientations change at fixed steps, positions are interpolated.
 #pragma once
 
 #include "core/shape_cast/shape_cast.h"
@@ -36,6 +29,12 @@ struct RotatingCastResult {
 };
 
 /// The first contact of A and B over the times 0 to duration, in `steps` equal steps.
+///
+/// Within a step, each orientation is that of the step's middle. So a point at distance rho from
+/// its body's pivot is off by at most 2 rho sin(|omega| h / 4) <= rho |omega| h / 2, h the step's
+/// length; `position_error` is the sum for the two bodies. The cast is repeated with the obstacle
+/// grown by position_error, whose first contact is never later than the true one. So t_lo is
+/// rigorous; t is that of the approximation.
 template <class T>
 RotatingCastResult<T> cast_rotating(const MovingBody<T>& a, const MovingBody<T>& b, T duration,
                                     int steps, const CastOptions<T>& options = {});

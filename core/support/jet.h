@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Jets: a shape's support mapping to second order. In direction n a shape looks like an ellipsoid
-// that agrees with it in support point and curvature; shapes made of flat faces, straight edges and
-// features of ellipsoids ARE the hull of finitely many such features.
-//
-// With h(n) = n.s(n), c an interior point and H = ds/dn, the ellipsoid of shape matrix
-// A = h H + g g^T, g = s - c, around c has the same h, s and H at n. docs/forms.md derives how
-// jets compose; a factor A = F F^T is kept, since A itself loses half of the digits of flat
-// features.
+// Jets: a shape's support mapping to second order (derived in docs/forms.md). In direction n a
+// shape looks like an ellipsoid with its support point and curvature. With h(n) = n.s(n), c an
+// interior point, g = s - c and H = ds/dn, its shape matrix around c is A = h H + g g^T. Stored is
+// a factor F, A = F F^T, since A itself loses half of the digits of flat features.
 #pragma once
 
 #include <concepts>

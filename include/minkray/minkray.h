@@ -2,7 +2,7 @@
 // Minkray for C++: convex shapes, scenes of them, rays cast at them, proofs of the results,
 // distances and times of impact. Header-only over minkray_c.h, whose comments specify threads,
 // frames and units; docs/cpp.md has examples.
-// Every failure throws a minkray::Error, whose text names what failed, and where.
+// Every failure throws a minkray::Error, whose text names the error and its location.
 #pragma once
 
 // Example:
@@ -26,8 +26,7 @@
 #include "minkray/minkray_c.h"
 
 namespace minkray {
-// The version is part of the names, so that programs made of parts that use different ones still
-// link.
+// The version is part of the names, so parts of a program that use different versions still link.
 inline namespace v0 {
 
 /// A point or a direction.
@@ -41,8 +40,7 @@ struct Vec3 {
 };
 static_assert(sizeof(Vec3) == 3 * sizeof(double));
 
-/// Things that lie one behind the other and belong to somebody else: a std::vector, std::span,
-/// std::array.
+/// A view of contiguous items that the caller owns: a std::vector, std::span, std::array.
 template <class T>
 class View {
  public:
@@ -68,7 +66,7 @@ class View {
   std::size_t size_ = 0;
 };
 
-/// A text that ends with 0: a literal, a std::string.
+/// A text that ends with 0: a literal or a std::string.
 class Text {
  public:
   constexpr Text() = default;
@@ -119,7 +117,7 @@ inline const char* version() {
 
 // ---- poses ----
 
-/// x -> linear x + translation, as three rows of four numbers; the identity unless they are given.
+/// x -> linear x + translation, as three rows of four numbers; by default the identity.
 struct Pose {
   double rows[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
 };
@@ -136,15 +134,15 @@ struct Quaternion {
   double x = 0, y = 0, z = 0, w = 1;
 };
 
-/// Leaves all where it is.
+/// The identity.
 inline Pose identity() {
   return {};
 }
-/// Moves without turning.
+/// A translation.
 inline Pose translation(const Vec3& by) {
   return {{{1, 0, 0, by.x}, {0, 1, 0, by.y}, {0, 0, 1, by.z}}};
 }
-/// Turns, then moves; the quaternion may have any length but zero.
+/// A rotation, then a translation; the quaternion may have any length except zero.
 inline Pose pose(const Vec3& by, const Quaternion& q) {
   const double s = 2 / (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
   const double xx = s * q.x * q.x, yy = s * q.y * q.y, zz = s * q.z * q.z;
@@ -154,7 +152,7 @@ inline Pose pose(const Vec3& by, const Quaternion& q) {
            {xy + zw, 1 - (xx + zz), yz - xw, by.y},
            {xz - yw, yz + xw, 1 - (xx + yy), by.z}}};
 }
-/// First `inner`, then `outer`.
+/// Composition: first `inner`, then `outer`.
 inline Pose operator*(const Pose& outer, const Pose& inner) {
   Pose both;
   for (int i = 0; i < 3; ++i)
@@ -167,12 +165,12 @@ inline Pose operator*(const Pose& outer, const Pose& inner) {
 
 // ---- shapes ----
 
-/// A convex shape, or a mesh, which never changes; copies are cheap. One that was moved from, or
-/// made of nothing, is none.
+/// An immutable convex shape or mesh; copies are cheap. Default-constructed and moved-from shapes
+/// are empty.
 class Shape {
  public:
   Shape() = default;
-  /// Takes over one of minkray_c.h, with its owner.
+  /// Takes ownership of a handle of minkray_c.h.
   explicit Shape(minkray_shape handle) : handle_(handle) {}
   Shape(const Shape& other) : handle_(other.handle_) {
     if (handle_.id != 0) detail::check(minkray_shape_retain(handle_));
@@ -188,13 +186,13 @@ class Shape {
 
   minkray_shape handle() const { return handle_; }
 
-  /// Such as "rounded".
+  /// Name of the kind, such as "rounded".
   const char* kind() const {
     const char* name = nullptr;
     detail::check(minkray_shape_kind(handle_, &name));
     return name;
   }
-  /// The point of it furthest along a direction.
+  /// The support point: the shape's furthest point along a direction.
   Vec3 support(const Vec3& direction) const {
     const double n[1][3] = {{direction.x, direction.y, direction.z}};
     double p[1][3];
@@ -209,7 +207,7 @@ class Shape {
     detail::check(minkray_shape_bounds(handle_, &found.lower.x, &found.upper.x));
     return found;
   }
-  /// As scene files have it; String is std::string or alike.
+  /// JSON as in scene files; String is std::string or similar.
   template <class String>
   String json() const {
     std::size_t needed = 0;
@@ -231,7 +229,7 @@ struct Parameter {
   View<const Shape> shapes = {};
 };
 
-/// A shape of any kind that scene files know (`minkray info --shapes` lists them).
+/// A shape of any kind, by its name in scene files (`minkray info --shapes` lists them).
 inline Shape make(Text kind, std::initializer_list<Parameter> parameters) {
   constexpr std::size_t most = 8;
   minkray_parameter plain[most] = {};
@@ -330,13 +328,13 @@ inline Shape hull(std::initializer_list<Vec3> points) {
   return hull(View<const Vec3>(points.begin(), points.size()));
 }
 
-// The algebra: shapes made of shapes.
+// Operations: shapes made of shapes.
 
-/// A shape, grown by a radius.
+/// A shape grown by a radius.
 inline Shape rounded(const Shape& shape, double radius) {
   return make("rounded", {{"radius", {&radius, 1}}, {"shape", {}, {&shape, 1}}});
 }
-/// All sums of a point of each.
+/// The Minkowski sum.
 inline Shape sum(View<const Shape> shapes) {
   return detail::with_shapes("minkowski_sum", shapes);
 }
@@ -346,7 +344,7 @@ inline Shape sum(std::initializer_list<Shape> shapes) {
 inline Shape sum(const Shape& a, const Shape& b) {
   return sum({a, b});
 }
-/// All differences of a point of a and one of b: the configuration space obstacle.
+/// The Minkowski difference of a and b, the configuration space obstacle.
 inline Shape difference(const Shape& a, const Shape& b) {
   return make("minkowski_difference", {{"a", {}, {&a, 1}}, {"b", {}, {&b, 1}}});
 }
@@ -357,7 +355,7 @@ inline Shape hull_of(View<const Shape> shapes) {
 inline Shape hull_of(std::initializer_list<Shape> shapes) {
   return hull_of(View<const Shape>(shapes.begin(), shapes.size()));
 }
-/// A shape under any invertible map; moved; scaled.
+/// A shape under an invertible map; translated; scaled.
 inline Shape transformed(const Shape& shape, const Pose& map) {
   return make("transform", {{"map", {&map.rows[0][0], 12}}, {"shape", {}, {&shape, 1}}});
 }
@@ -370,12 +368,12 @@ inline Shape scaled(const Shape& shape, const Vec3& by) {
 inline Shape scaled(const Shape& shape, double by) {
   return scaled(shape, Vec3{by, by, by});
 }
-/// All that a shape which moves without turning comes through.
+/// The volume swept by a shape along a straight line.
 inline Shape swept(const Shape& shape, const Vec3& way) {
   return sum(shape, segment({0, 0, 0}, way));
 }
 
-/// A shape as scene files have it.
+/// Reads a shape from JSON, as in scene files.
 inline Shape read_shape(Text json, Text folder = {}) {
   minkray_shape made;
   detail::check(minkray_shape_read(json.c_str(), folder.c_str(), &made));
@@ -383,7 +381,7 @@ inline Shape read_shape(Text json, Text folder = {}) {
 }
 
 /// A mesh: triangles with shared vertices, counter-clockwise as seen from outside. Rays meet the
-/// mesh itself, not its hull. `triangles` is a contiguous range of numbers of vertices, or of
+/// mesh itself, not its hull. `triangles` is a contiguous range of vertex indices, or of
 /// anything that is three std::uint32_t, such as std::array<std::uint32_t, 3>. Scenes and rays
 /// accept a mesh like a shape; it is not convex, so it cannot be an operand of other shapes.
 template <class Triangles>
@@ -488,16 +486,16 @@ int answer_jets(const Function& function, std::size_t count, const double (*n)[3
 }
 }  // namespace detail
 
-/// Your own shape: `support(const Vec3& n)` returns the point furthest along n, which has length
-/// 1. Several threads call it at once. An exception ends the query with an Error that has its
-/// text, and so does any result that no convex shape can have.
+/// A custom shape: `support(const Vec3& n)` returns the furthest point along the unit vector n.
+/// Several threads call it at once. An exception ends the query with an Error with its text, and so
+/// does a result that no convex shape can have.
 template <class Support>
 Shape custom(Support support) {
   return detail::custom_within(std::move(support), nullptr, nullptr);
 }
 /// Makes a shape of a function that computes many points per call: `support(View<const Vec3>
-/// directions, View<Vec3> points)`. With `gathered`, rays wait for each other until there are that
-/// many directions, which pays off if a call is expensive.
+/// directions, View<Vec3> points)`. With `gathered`, casts of many rays collect up to that many
+/// directions per call, which pays off if a call is expensive.
 template <class Support>
 Shape custom_batched(Support support, std::size_t gathered = 0) {
   minkray_support given = {};
@@ -514,7 +512,7 @@ Shape custom_batched(Support support, std::size_t gathered = 0) {
   detail::check(minkray_shape_custom_gathered(&given, gathered, &made));
   return Shape(made);
 }
-/// A support point, and how it moves as its direction turns: a symmetric matrix.
+/// A support point and its derivative by the direction, a symmetric matrix.
 struct SupportJet {
   Vec3 point;
   double derivative[3][3];  ///< of the point by a direction of length 1
@@ -567,13 +565,13 @@ inline constexpr std::uint32_t no_object = MINKRAY_NO_OBJECT;
 /// Hit of a ray; see minkray_hit.
 struct Hit {
   double t = std::numeric_limits<double>::infinity();  ///< in lengths of the direction
-  double t_lo = t, t_hi = t;                           ///< the true t is between them
-  double t_base = 0, t_offset = 0;                     ///< t is their sum, which has fewer digits
+  double t_lo = t, t_hi = t;                           ///< proven bounds of t
+  double t_base = 0, t_offset = 0;                     ///< t = t_base + t_offset, with more digits
   Vec3 point, normal;
   std::uint32_t object = no_object;
   Status status = exhausted;
   std::int32_t supports = 0;
-  std::int32_t part = -1;  ///< of a mesh: the triangle that is met
+  std::int32_t part = -1;  ///< of a mesh: the triangle
 
   bool found() const { return status == hit || status == inside; }
 };
@@ -582,7 +580,7 @@ static_assert(sizeof(Hit) == sizeof(minkray_hit));
 /// Options of long calls: threads, and a callback that reports progress and can stop the call.
 struct Options {
   int threads = 0;                                     ///< 0: one per core
-  int (*progress)(void* user, double done) = nullptr;  ///< answers anything but 0 to stop
+  int (*progress)(void* user, double done) = nullptr;  ///< returns nonzero to stop
   void* user = nullptr;
 };
 
@@ -596,7 +594,7 @@ inline const minkray_ray* plain(View<const Ray> rays) {
 inline minkray_hit* plain(View<Hit> hits) {
   return reinterpret_cast<minkray_hit*>(hits.data());
 }
-/// Throws unless there are as many of one as of the other.
+/// Throws unless both counts are equal.
 inline void check_sizes(const char* function, const char* argument, std::size_t size,
                         const char* other, std::size_t must_be) {
   if (size == must_be) return;
@@ -609,8 +607,8 @@ inline void check_sizes(const char* function, const char* argument, std::size_t 
 
 using Proof = minkray_proof;
 
-/// A lidar's rays, into as much room as there is: "spinning:32x1800", "VLP-16", or a file. Returns
-/// how many there are.
+/// Writes a lidar's rays, as far as there is room: "spinning:32x1800", "VLP-16", or a file. Returns
+/// their number.
 inline std::size_t lidar(Text pattern, const Pose& pose, View<Ray> rays = {}) {
   std::size_t needed = 0;
   detail::check(minkray_lidar_rays(pattern.c_str(), detail::plain(&pose),
@@ -619,7 +617,7 @@ inline std::size_t lidar(Text pattern, const Pose& pose, View<Ray> rays = {}) {
   return needed;
 }
 
-/// A calibrated camera's rays, by the text of its JSON; as a lidar's.
+/// Writes a calibrated camera's rays, given as JSON text; else as for a lidar.
 inline std::size_t camera(Text camera, const Pose& pose, View<Ray> rays = {}) {
   std::size_t needed = 0;
   detail::check(minkray_camera_rays(camera.c_str(), detail::plain(&pose),
@@ -640,26 +638,26 @@ inline Hit cast(const Shape& shape, const Ray& ray, const Pose& pose = identity(
 
 /// Options for reading a file.
 struct FileOptions {
-  const Pose* pose = nullptr;  ///< of all that is in it
+  const Pose* pose = nullptr;  ///< of all contents
   Text geometry = {};          ///< of robots: "visual", "collision" or "all"
   Text keyframe = {};
   View<const char* const> package_dirs = {};
   bool skip_missing_meshes = false;
-  Text meshes = {};  ///< of robots: "exact" or "hull"; empty: exact, of MJCF hull for contact
+  Text meshes = {};  ///< of robots: "exact" or "hull"; empty: exact, but hull for contact in MJCF
 };
 
 /// Options of a picture; see minkray_picture_options.
 struct PictureOptions {
-  Text view = {};  ///< camera, lights and background, as scene files have them
+  Text view = {};  ///< camera, lights and background, as in scene files
   std::uint32_t width = 0, height = 0;
   std::uint32_t samples = 16;
   std::uint64_t seed = 0;
   Text integrator = {};
-  std::int32_t bounces = 0, max_depth = 0;  ///< 0: as usual, less than 0: none
+  std::int32_t bounces = 0, max_depth = 0;  ///< 0: default, less than 0: none
   bool denoise = false;
 };
 using Channel = minkray_channel;
-/// The least signed distance of a robot on its way; see minkray_clearance.
+/// The least signed distance of a robot along a path; see minkray_clearance.
 struct Clearance {
   double lower = 0, upper = 0;
   double row = 0;
@@ -718,7 +716,7 @@ class Scene {
       detail::check(minkray_scene_joint(scene_, group_, i, &name, nullptr));
       return name;
     }
-    /// Writes what a joint is set to, as far as there is room. Returns how many numbers it has.
+    /// Writes a joint's value, as far as there is room. Returns how many numbers it has.
     std::size_t value(std::uint32_t i, View<double> values) const {
       std::size_t count = 0;
       detail::check(minkray_scene_joint(scene_, group_, i, nullptr, &count));
@@ -733,7 +731,7 @@ class Scene {
       detail::check(
           minkray_scene_set_joint(scene_, group_, joint.c_str(), values.data(), values.size()));
     }
-    /// Not of a file with particles.
+    /// Moves all objects of the file. Not for files with particles.
     void set_pose(const Pose& pose) {
       detail::check(minkray_scene_set_group_pose(scene_, group_, detail::plain(&pose)));
     }
@@ -790,18 +788,18 @@ class Scene {
   void set_pose(std::uint32_t object, const Pose& pose) {
     detail::check(minkray_scene_set_pose(handle_, object, detail::plain(&pose)));
   }
-  /// Takes an object out: its number is never used again, all others stay.
+  /// Removes an object: its number is never reused, all others stay the same.
   void remove(std::uint32_t object) { detail::check(minkray_scene_remove(handle_, object)); }
-  /// Makes queries see all changes: builds or refits, whichever is due.
+  /// Applies all changes: builds the BVH, or refits it if objects only moved.
   void commit() { detail::check(minkray_scene_commit(handle_)); }
 
-  /// Number of objects that were added.
+  /// Number of added objects.
   std::uint32_t size() const {
     std::uint32_t objects = 0;
     detail::check(minkray_scene_size(handle_, &objects, nullptr));
     return objects;
   }
-  /// An object's name, valid as long as the scene lives.
+  /// Name of an object, valid as long as the scene exists.
   const char* name(std::uint32_t object) const {
     const char* found = nullptr;
     detail::check(minkray_scene_name(handle_, object, &found));
@@ -814,21 +812,21 @@ class Scene {
     return found;
   }
 
-  /// The first object that a ray meets.
+  /// First hit of a ray.
   Hit cast(const Ray& ray) const {
     Hit found;
     detail::check(minkray_scene_cast(handle_, detail::plain({&ray, 1}), 1,
                                      detail::plain({&found, 1}), nullptr));
     return found;
   }
-  /// Results have the same bits for any split of the rays and any number of threads.
+  /// Results are bit-identical for any split of the rays and any number of threads.
   void cast(View<const Ray> rays, View<Hit> hits, const Options& options = {}) const {
     detail::check_sizes("minkray::Scene::cast", "hits", hits.size(), "rays", rays.size());
     const minkray_options how = detail::plain(options);
     detail::check(
         minkray_scene_cast(handle_, detail::plain(rays), rays.size(), detail::plain(hits), &how));
   }
-  /// Tests if anything is met: hit, miss, or exhausted.
+  /// Tests if a ray hits anything: hit, miss, or exhausted.
   Status occluded(const Ray& ray) const {
     std::uint8_t answer = 0;
     detail::check(
@@ -849,7 +847,7 @@ class Scene {
                                      detail::plain({&found, 1}), nullptr));
     return found;
   }
-  /// Proves answers of `cast`.
+  /// Proves results of `cast`.
   void prove(View<const Ray> rays, View<const Hit> hits, View<Proof> proofs,
              const Options& options = {}) const {
     detail::check_sizes("minkray::Scene::prove", "hits", hits.size(), "rays", rays.size());
@@ -859,7 +857,7 @@ class Scene {
                                       reinterpret_cast<const minkray_hit*>(hits.data()),
                                       rays.size(), proofs.data(), &how));
   }
-  /// A picture: its light is the channel "rgb", of width * height * 3 numbers.
+  /// Renders a picture: the channel "rgb" has width * height * 3 numbers.
   void render(const PictureOptions& options, View<const Channel> channels,
               const Options& how = {}) const {
     const minkray_picture_options plain = {
@@ -870,8 +868,8 @@ class Scene {
     detail::check(
         minkray_scene_render(handle_, &plain, channels.data(), channels.size(), &plain_how));
   }
-  /// Clearance of a robot to itself and to all else on its way through rows of joint values: one
-  /// result for each two rows, and the least of all.
+  /// Clearance of a robot along a path of joint values, to itself and all other objects: one result
+  /// per pair of consecutive rows, and the least of all.
   Clearance clearance(const Group& robot, View<const double> path, std::size_t rows,
                       View<Clearance> steps = {}) const {
     constexpr const char* function = "minkray::Scene::clearance";
@@ -888,9 +886,9 @@ class Scene {
     return least;
   }
 
-  /// Judges a robot's motion through rows of joints' values: free at all times, or which pair
-  /// collides. With rates, as many numbers, joints go as cubics, and with accelerations as
-  /// quintics. `proof` names a file for minkray-check; see minkray_scene_verify.
+  /// Verifies a robot's motion along a path of joint values: free at all times, or a pair that
+  /// collides. With rates, as many numbers, joints move as cubics, with accelerations as quintics.
+  /// `proof` names a file for minkray-check; see minkray_scene_verify.
   Verdict verify(const Group& robot, View<const double> path, std::size_t rows,
                  View<const double> rates = {}, double margin = 0,
                  View<const double> accelerations = {}, Text proof = {}) const {
@@ -921,7 +919,7 @@ class Scene {
   // ---- pairs: see minkray/pairs.h ----
 
   /// All pairs of objects that are no further apart than `within`, in the order of their numbers.
-  /// Left out is what masks and `allow` leave out, and what a robot's joints connect.
+  /// Skips pairs excluded by masks or `allow`, and links that a joint connects.
   ScenePairs distances(double within = 0) const;
   ScenePairs distances(const NearOptions& options) const;
   /// Exactly those pairs, in their order, regardless of masks and allowed pairs.
@@ -930,23 +928,23 @@ class Scene {
   /// The k objects nearest to each point: k results per point, the nearest first.
   ScenePairs nearest(View<const Vec3> points, std::size_t k = 1) const;
   ScenePairs nearest(View<const Vec3> points, std::size_t k, const NearOptions& options) const;
-  /// The object nearest to each of many shapes that are no part of the scene.
+  /// The object nearest to each of many given shapes.
   void distance_to(const Bodies& shapes, View<ScenePair> nearest, const NearOptions& options) const;
   ScenePair distance_to(const Shape& shape, const Pose& pose) const;
-  /// Finds what moving shapes touch first in the scene, at times from 0 to t_max.
+  /// First contacts of moving shapes with the scene, at times from 0 to t_max.
   void times_of_impact(const Bodies& shapes, View<const double> t_max, View<SceneImpact> impacts,
                        const NearOptions& options) const;
   SceneImpact time_of_impact(const Shape& shape, const Pose& pose, const Twist& twist,
                              double t_max) const;
-  /// Points of contact of two objects.
+  /// Contact points of two objects.
   Manifold manifold(std::uint32_t object_a, std::uint32_t object_b) const;
   /// Objects are a pair if each one's mask has a bit of the other's category.
   void set_masks(std::uint32_t object, std::uint32_t category, std::uint32_t mask);
-  /// Allows two objects to touch, or not: allowed pairs are left out.
+  /// Allows two objects to touch, or not: allowed pairs are skipped.
   void allow(std::uint32_t object_a, std::uint32_t object_b, bool is_allowed = true);
   /// Allows the pairs of the robot's links that an SRDF file lists.
   void allow_from_srdf(const Group& robot, Text file);
-  /// The least distance of each step of a robot's way, with its derivative by the joints' values at
+  /// The least distance of each step of a robot's path, with its derivative by the joint values at
   /// its row: as many numbers per step as a row has. See minkray_scene_clearance_derivatives.
   void clearance_derivatives(const Group& robot, View<const double> path, std::size_t rows,
                              View<Clearance> steps, View<double> jac,
@@ -967,7 +965,7 @@ class Scene {
 /// Values of Distance::status.
 enum DistanceStatus : std::int32_t {
   separated = MINKRAY_SEPARATED,
-  touching = MINKRAY_TOUCHING,  ///< the bounds are on both sides of 0
+  touching = MINKRAY_TOUCHING,  ///< 0 is between the bounds
   overlapping = MINKRAY_OVERLAPPING,
   undecided = MINKRAY_UNDECIDED  ///< the bounds hold, but are not within the tolerance
 };
@@ -976,7 +974,7 @@ enum ImpactStatus : std::int32_t {
   impact = MINKRAY_IMPACT,
   no_impact = MINKRAY_NO_IMPACT,  ///< proven
   begins_inside = MINKRAY_BEGINS_INSIDE,
-  impact_undecided = MINKRAY_IMPACT_UNDECIDED  ///< none before t_lo; no more is known
+  impact_undecided = MINKRAY_IMPACT_UNDECIDED  ///< none before t_lo; later impact unknown
 };
 
 /// Distance of two shapes; see minkray_distance.
@@ -995,7 +993,7 @@ struct Twist {
 };
 static_assert(sizeof(Twist) == sizeof(minkray_twist));
 
-/// When two shapes first touch; see minkray_impact.
+/// Time of impact of two shapes; see minkray_impact.
 struct Impact {
   double t_lo = 0, t_hi = std::numeric_limits<double>::infinity();
   double distance = 0;
@@ -1005,7 +1003,7 @@ struct Impact {
 static_assert(sizeof(Impact) == sizeof(minkray_impact) &&
               offsetof(Impact, status) == offsetof(minkray_impact, status));
 
-/// Distance, or minus the penetration depth: lower <= value <= upper, proven.
+/// Signed distance (negative: penetration depth), with proven bounds lower <= value <= upper.
 inline Distance signed_distance(const Shape& a, const Pose& pose_a, const Shape& b,
                                 const Pose& pose_b, double tolerance = 0) {
   const minkray_distance_options options = {sizeof options, tolerance, 0, 0, 0};
@@ -1016,7 +1014,7 @@ inline Distance signed_distance(const Shape& a, const Pose& pose_a, const Shape&
   return found;
 }
 
-/// The first contact of two that move and turn, at times from 0 to t_max.
+/// First contact of two moving and turning shapes, at times from 0 to t_max.
 inline Impact time_of_impact(const Shape& a, const Pose& pose_a, const Twist& twist_a,
                              const Shape& b, const Pose& pose_b, const Twist& twist_b,
                              double t_max) {

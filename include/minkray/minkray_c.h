@@ -9,15 +9,15 @@
  * then names the error and its place. A failed call writes no results, unless its description
  * allows it.
  *
- * Handles are numbers, never addresses: using one that was released, or never made, is a reported
- * error, even if others were made since.
+ * Handles are numbers, never addresses: using a released or invalid handle is a reported error,
+ * even if others were made since.
  *
  * Threads: functions that take a scene and are not described as changing it may be called by any
  * number of threads at once, and so may all functions of shapes. A call that changes or releases a
  * scene while another call uses it, from any thread or from a callback, returns MINKRAY_WRONG_USE
  * and changes nothing; so does a call that uses a scene while it is changed.
  *
- * All points, directions and poses are in the frame of the world, of one unit of length, in double.
+ * All points, directions and poses are in the world's frame and unit of length, in double.
  */
 
 #include <stddef.h>
@@ -40,8 +40,8 @@ extern "C" {
 /* Return codes. */
 typedef enum minkray_code {
   MINKRAY_OK = 0,
-  MINKRAY_WRONG_USE = 1,   /* an argument that cannot be, or a call at the wrong time */
-  MINKRAY_BAD_INPUT = 2,   /* a file or text that cannot be used */
+  MINKRAY_WRONG_USE = 1,   /* an invalid argument, or a call at the wrong time */
+  MINKRAY_BAD_INPUT = 2,   /* an invalid file or text */
   MINKRAY_BAD_SUPPORT = 3, /* a support function of yours contradicts itself; results may be filled
                             * in part */
   MINKRAY_NO_MEMORY = 4,
@@ -57,12 +57,13 @@ MINKRAY_API const char* minkray_last_error(void);
 
 /* ---- shapes ---------------------------------------------------------------------------------- */
 
-/* A convex shape, which never changes. {0} is none. */
+/* An immutable convex shape or mesh. {0} is no shape. */
 typedef struct minkray_shape {
   uint64_t id;
 } minkray_shape;
 
-/* x -> linear x + translation: three rows of the linear part's and the translation's numbers. */
+/* x -> linear x + translation: three rows of four numbers, three of the linear part and one of the
+ * translation. */
 typedef struct minkray_pose {
   double rows[3][4];
 } minkray_pose;
@@ -86,7 +87,7 @@ MINKRAY_API int minkray_shape_make(const char* kind, const minkray_parameter* pa
  * be NULL for the working folder. */
 MINKRAY_API int minkray_shape_read(const char* json, const char* folder, minkray_shape* shape);
 
-/* Your own shape: points[i] is its point furthest along directions[i], which has length 1. Equal
+/* A custom shape: points[i] is its point furthest along directions[i], which has length 1. Equal
  * directions must get equal points. Several threads call it at once. Queries of the shape itself,
  * or of shapes made of it, return MINKRAY_WRONG_USE from within it. Returns 0, or anything else if
  * it failed: see minkray_support_failed. */
@@ -101,9 +102,9 @@ typedef struct minkray_support {
   const double* upper;
 } minkray_support;
 
-/* A mesh: triangles with shared vertices, three numbers of vertices each, counter-clockwise as seen
- * from outside. Rays meet the mesh itself, not its hull, from both sides, and a ray at an edge or
- * vertex of a closed mesh meets one of the triangles there. Scenes accept a mesh like a shape;
+/* A mesh: triangles with shared vertices, three indices of vertices each, counter-clockwise as seen
+ * from outside. Rays hit the mesh itself, not its hull, from both sides, and a ray at an edge or
+ * vertex of a closed mesh hits one of the triangles there. Scenes accept a mesh like a shape;
  * functions that need a convex shape, such as minkray_shape_make, reject it. Both arrays are
  * copied. */
 MINKRAY_API int minkray_shape_mesh(const double (*vertices)[3], size_t vertex_count,
@@ -119,18 +120,18 @@ MINKRAY_API int minkray_shape_height_field(const double* heights, size_t rows, s
                                            double size_x, double size_y, const double* bottom,
                                            minkray_shape* shape);
 
-/* Properties of a mesh. Vertices at one place count as one for all but `vertices`. */
+/* Properties of a mesh. Vertices at the same position count as one, except in `vertices`. */
 typedef struct minkray_mesh_info {
   size_t vertices, triangles;
   size_t open_edges;   /* edges without as many triangles on one side as on the other; 0: closed */
-  size_t without_area; /* triangles that no ray meets */
-  size_t repeated;     /* triangles whose three vertices another has, too */
+  size_t without_area; /* triangles that no ray hits */
+  size_t repeated;     /* triangles with the same vertices as another */
 } minkray_mesh_info;
 /* Counts a mesh's vertices, triangles and defects. */
 MINKRAY_API int minkray_shape_mesh_info(minkray_shape shape, minkray_mesh_info* info);
 
-/* Sets the reason why a support function of yours fails, for the error of the query that called it.
- * Ignored anywhere else. */
+/* Sets the error message of a failing support function, for the query that called it. Ignored
+ * outside of support functions. */
 MINKRAY_API void minkray_support_failed(const char* reason);
 
 /* Makes a shape of a support function. The function is called for some hundred directions at once,
@@ -139,9 +140,9 @@ MINKRAY_API void minkray_support_failed(const char* reason);
  * MINKRAY_BAD_SUPPORT. `release` is called if this fails. */
 MINKRAY_API int minkray_shape_custom(const minkray_support* support, minkray_shape* shape);
 
-/* Makes one of a function that is expensive per call and cheap per direction, such as those of
- * interpreters: when many rays are cast they wait for each other, so that one call has up to
- * `gathered` directions. The results are the same; other queries call with at most 16. */
+/* Makes a shape of a function that is expensive per call and cheap per direction, such as one in an
+ * interpreter: casts of many rays collect up to `gathered` directions per call. The results are the
+ * same; other queries call with at most 16. */
 MINKRAY_API int minkray_shape_custom_gathered(const minkray_support* support, size_t gathered,
                                               minkray_shape* shape);
 
@@ -151,13 +152,13 @@ MINKRAY_API int minkray_shape_custom_gathered(const minkray_support* support, si
 typedef int (*minkray_jet_function)(void* user, size_t count, const double (*directions)[3],
                                     double (*points)[3], double (*derivatives)[9]);
 
-/* Makes one of a smooth shape with known curvature, which saves most of the support points of a
+/* Makes a smooth shape with known curvature, which saves most of the support points of a
  * cast. `jets` gets the same `user`, and must return the same points. Derivatives only guide casts,
  * and are not trusted: wrong ones cost time. */
 MINKRAY_API int minkray_shape_custom_with_jets(const minkray_support* support,
                                                minkray_jet_function jets, minkray_shape* shape);
 
-/* Adds an owner; releasing takes one away. */
+/* Adds an owner; a release removes one. */
 MINKRAY_API int minkray_shape_retain(minkray_shape shape);
 MINKRAY_API int minkray_shape_release(minkray_shape shape);
 
@@ -173,19 +174,19 @@ MINKRAY_API int minkray_shape_kind(minkray_shape shape, const char** kind);
 MINKRAY_API int minkray_shape_support(minkray_shape shape, size_t count,
                                       const double (*directions)[3], double (*points)[3]);
 
-/* The tightest box along the axes, but for rounding. */
+/* Axis-aligned bounding box, tight up to rounding. */
 MINKRAY_API int minkray_shape_bounds(minkray_shape shape, double lower[3], double upper[3]);
 
 /* ---- scenes ---------------------------------------------------------------------------------- */
 
-/* Shapes with poses, that rays are cast at. {0} is none. */
+/* Objects with poses. {0} is no scene. */
 typedef struct minkray_scene {
   uint64_t id;
 } minkray_scene;
 
 #define MINKRAY_NO_OBJECT UINT32_MAX
 
-/* Makes a scene without objects; its owner releases it. */
+/* Makes an empty scene; release it when done. */
 MINKRAY_API int minkray_scene_make(minkray_scene* scene);
 MINKRAY_API int minkray_scene_release(minkray_scene scene);
 
@@ -231,24 +232,23 @@ MINKRAY_API int minkray_scene_set_group_pose(minkray_scene scene, uint32_t group
 MINKRAY_API int minkray_scene_set_joint(minkray_scene scene, uint32_t group, const char* joint,
                                         const double* values, size_t count);
 
-/* Takes an object out: rays no longer meet it. Its number is never used again, and calls that name
- * it return MINKRAY_WRONG_USE; all other numbers stay. */
+/* Removes an object. Its number is never reused, and calls with it return MINKRAY_WRONG_USE; all
+ * other numbers stay the same. */
 MINKRAY_API int minkray_scene_remove(minkray_scene scene, uint32_t object);
 
-/* Makes rays meet the objects added and moved since the last commit: builds the hierarchy, or if
- * objects only moved, refits it. */
+/* Applies all changes since the last commit: builds the BVH, or refits it if objects only moved. */
 MINKRAY_API int minkray_scene_commit(minkray_scene scene);
 
-/* Number of objects that were added, removed ones included. Particles of scene files are numbered
+/* Number of added objects, including removed ones. Particles of scene files are numbered
  * after all objects, once the scene is committed. */
 MINKRAY_API int minkray_scene_size(minkray_scene scene, uint32_t* objects, uint32_t* particles);
 
-/* An object's name, valid as long as the scene lives. */
+/* Name of an object, valid as long as the scene exists. */
 MINKRAY_API int minkray_scene_name(minkray_scene scene, uint32_t object, const char** name);
 /* Pose of an object. */
 MINKRAY_API int minkray_scene_pose(minkray_scene scene, uint32_t object, minkray_pose* pose);
 
-/* Objects of a group, and the number of its joints that move. */
+/* Objects of a group, and the number of its movable joints. */
 MINKRAY_API int minkray_scene_group(minkray_scene scene, uint32_t group, uint32_t* first_object,
                                     uint32_t* objects, uint32_t* joints);
 /* Name of a joint, and the count of its numbers. */
@@ -260,9 +260,8 @@ MINKRAY_API int minkray_scene_joint_value(minkray_scene scene, uint32_t group, u
 
 /* ---- rays ------------------------------------------------------------------------------------ */
 
-/* The points origin + t direction, 0 <= t <= t_max. The direction may have any length but zero,
- * which is MINKRAY_WRONG_USE. A t_max of 0, as structs of zeros have it, is no limit, as is
- * infinity. */
+/* The points origin + t direction, 0 <= t <= t_max. The direction may have any length; zero is
+ * MINKRAY_WRONG_USE. A t_max of 0 (a zeroed struct) or infinity is no limit. */
 typedef struct minkray_ray {
   double origin[3];
   double direction[3];
@@ -277,33 +276,33 @@ typedef enum minkray_status {
 } minkray_status;
 
 typedef struct minkray_hit {
-  double t;    /* in lengths of the direction; infinite where nothing is met */
-  double t_lo; /* the true t lies between these two */
+  double t;    /* ray parameter, in lengths of the direction; infinite for a miss */
+  double t_lo; /* proven bounds of t */
   double t_hi;
-  double t_base; /* t is t_base + t_offset, which have more digits than their sum */
+  double t_base; /* t = t_base + t_offset; the two have more digits than t */
   double t_offset;
-  double point[3];  /* NaN where nothing is met */
-  double normal[3]; /* outward, of length 1; zero if there is none; on a mesh towards the ray */
+  double point[3];  /* NaN for a miss */
+  double normal[3]; /* outward unit vector, or zero; of a mesh: towards the ray */
   uint32_t object;  /* or MINKRAY_NO_OBJECT */
   int32_t status;   /* a minkray_status */
   int32_t supports; /* calls of the object's support mapping */
-  int32_t part;     /* of a mesh: the triangle that is met; -1 of all else */
+  int32_t part;     /* of a mesh: the triangle; else -1 */
 } minkray_hit;
 
 typedef struct minkray_options {
   size_t size;     /* sizeof(minkray_options) */
-  int32_t threads; /* 0: one per core. The results are the same bits for any number */
+  int32_t threads; /* 0: one per core. Results are bit-identical for any number */
   int32_t reserved;
-  /* Called now and then with the part that is done, by one thread at a time; returns anything but 0
-   * to stop. May be NULL. */
+  /* Called from time to time with the fraction done, by one thread at a time; return nonzero to
+   * stop. May be NULL. */
   int (*progress)(void* user, double done);
   void* user;
 } minkray_options;
 
-/* Finds what each ray meets first; where several objects are met at the same t, the one of the
- * least number. The results are the same bits however rays are split into calls. A ray is
- * MINKRAY_EXHAUSTED if the solver did not converge at any object, even if another was met; that hit
- * is then filled in. Options may be NULL. */
+/* First hits of rays; among hits at the same t, the object with the smallest number. Results are
+ * bit-identical for any split of the rays into calls. A ray is MINKRAY_EXHAUSTED if the solver did
+ * not converge for some object, even if another one is hit; that hit is then filled in. Options may
+ * be NULL. */
 MINKRAY_API int minkray_scene_cast(minkray_scene scene, const minkray_ray* rays, size_t count,
                                    minkray_hit* hits, const minkray_options* options);
 
@@ -318,7 +317,7 @@ typedef struct minkray_ray_arrays {
   ptrdiff_t t_max_stride;
 } minkray_ray_arrays;
 
-/* Those that are NULL are not filled. */
+/* NULL arrays are not filled. */
 typedef struct minkray_hit_arrays {
   size_t size; /* sizeof(minkray_hit_arrays) */
   double* t;
@@ -338,7 +337,7 @@ MINKRAY_API int minkray_scene_cast_arrays(minkray_scene scene, const minkray_ray
                                           size_t count, const minkray_hit_arrays* hits,
                                           const minkray_options* options);
 
-/* Occlusion of rays: blocked[i] is MINKRAY_HIT if the ray meets anything, MINKRAY_MISS, or
+/* Occlusion of rays: blocked[i] is MINKRAY_HIT if the ray hits anything, MINKRAY_MISS, or
  * MINKRAY_EXHAUSTED. */
 MINKRAY_API int minkray_scene_occluded(minkray_scene scene, const minkray_ray_arrays* rays,
                                        size_t count, uint8_t* blocked,
@@ -350,7 +349,7 @@ MINKRAY_API int minkray_scene_occluded_rays(minkray_scene scene, const minkray_r
                                             const minkray_options* options);
 
 /* Finds where rays leave one object: MINKRAY_HIT at the greatest t, MINKRAY_INSIDE if they end in
- * it at t_max, MINKRAY_MISS if they never meet it. Not for half-spaces, which are unbounded. */
+ * it at t_max, MINKRAY_MISS if they miss it. Not for half-spaces, which are unbounded. */
 MINKRAY_API int minkray_scene_exit(minkray_scene scene, uint32_t object, const minkray_ray* rays,
                                    size_t count, minkray_hit* hits, const minkray_options* options);
 
@@ -363,40 +362,40 @@ MINKRAY_API int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose
 
 /* Verdict on a result, found by support points alone (docs/certificates.md). */
 typedef struct minkray_proof {
-  int32_t holds; /* 1 if so */
+  int32_t holds; /* 1 if proven */
   int32_t reserved;
   uint32_t against; /* the object that the proof failed at, or MINKRAY_NO_OBJECT */
-  uint32_t checked; /* objects for which something had to be proven */
-  double t_lo;      /* of hits: proven bounds of t, with an allowance for rounding */
+  uint32_t checked; /* number of objects with a proof */
+  double t_lo;      /* of hits: proven bounds of t, including rounding */
   double t_hi;
-  double plane[3]; /* of hits: nothing of the object lies beyond this plane through t_lo */
+  double plane[3]; /* of hits: a plane through t_lo that the object does not cross */
   char complaint[56];
   double allowed; /* rounding allowed across a plane, as a length */
 } minkray_proof;
 
-/* Proves results of minkray_scene_cast: the object is hit at the reported place, and all others are
- * missed before. The proof holds up to the rounding that docs/certificates.md specifies. */
+/* Proves results of minkray_scene_cast: the object is hit at the reported point, and no other
+ * object before it. The proof holds up to the rounding that docs/certificates.md specifies. */
 MINKRAY_API int minkray_scene_prove(minkray_scene scene, const minkray_ray* rays,
                                     const minkray_hit* hits, size_t count, minkray_proof* proofs,
                                     const minkray_options* options);
 
 /* ---- sensors --------------------------------------------------------------------------------- */
 
-/* A lidar's rays: `pattern` is "spinning:CHANNELSxSTEPS", with ":LOWEST,HIGHEST" elevations (else
- * -15,15) and ":FROM,TO" azimuths in degrees if wanted, row by row from above, clockwise from
- * behind unless azimuths are given; or a lidar's name ("VLP-16", "VLP-32C", "HDL-64E", "OS1-64",
- * "Mid-360"); or a file: .csv as Livox publishes its patterns, .json of elevations or of Ouster's,
- * .mat3x4f. In the sensor's frame x is ahead and z is the axis; `pose`, of the sensor in the world,
- * may be NULL. Directions have length 1, so that t is the distance. Writes at most `size` rays, and
- * to `needed` (if not NULL) how many there are. */
+/* A lidar's rays. `pattern` is "spinning:CHANNELSxSTEPS[:LOWEST,HIGHEST[:FROM,TO]]" (elevations,
+ * default -15,15, and azimuths in degrees): row by row from above, clockwise from behind unless
+ * azimuths are given. Or a lidar's name ("VLP-16", "VLP-32C", "HDL-64E", "OS1-64", "Mid-360"). Or a
+ * file: .csv (Livox), .json of elevations (also Ouster's), .mat3x4f. In the sensor's frame x is
+ * ahead and z is the axis; `pose`, of the sensor in the world, may be NULL. Directions have length
+ * 1, so that t is the distance. Writes at most `size` rays, and their number to `needed` (if not
+ * NULL). */
 MINKRAY_API int minkray_lidar_rays(const char* pattern, const minkray_pose* pose, minkray_ray* rays,
                                    size_t size, size_t* needed);
 
 /* A calibrated camera's rays, row by row: `camera` is the text of a JSON object with fx, fy, cx,
- * cy, width and height in pixels, and if wanted "model" ("pinhole" or "fisheye"), k1 to k6 (k4), p1
- * and p2, all as OpenCV has them, the middle of the first pixel at (0, 0). Directions have z = 1 in
- * the camera's frame (t is the depth), of fisheyes length 1, and are NaN where the distortion has
- * no inverse. The rest is as for lidars. */
+ * cy, width and height in pixels, and optionally "model" ("pinhole" or "fisheye"), k1 to k6 (k4),
+ * p1 and p2, all as in OpenCV, with the centre of the first pixel at (0, 0). Directions have z = 1
+ * in the camera's frame (t is the depth), for fisheyes length 1, and are NaN where the distortion
+ * has no inverse. The rest is as for lidars. */
 MINKRAY_API int minkray_camera_rays(const char* camera, const minkray_pose* pose, minkray_ray* rays,
                                     size_t size, size_t* needed);
 
@@ -405,24 +404,24 @@ MINKRAY_API int minkray_camera_rays(const char* camera, const minkray_pose* pose
 typedef struct minkray_picture_options {
   size_t size; /* sizeof(minkray_picture_options) */
   /* The keys "camera", "lights" and "background" of scene files, in an object, as text; keys that
-   * are present replace those of the scene's files. May be NULL. If there are none at all,
-   * everything is framed, and lit by a sun and a sky. */
+   * are present replace those of the scene's files. May be NULL. Without a camera everything is
+   * framed; without lights there are a sun and a sky. */
   const char* view;
   uint32_t width; /* in pixels; 0: the camera's */
   uint32_t height;
-  uint32_t samples;  /* of a pixel; 0: 16 */
+  uint32_t samples;  /* per pixel; 0: 16 */
   int32_t bounces;   /* with integrator "ambient"; 0: 1, less than 0: none */
   int32_t max_depth; /* with integrator "path"; 0: 16, less than 0: none */
-  int32_t denoise;   /* 1: less noise, with at least 2 samples */
+  int32_t denoise;   /* 1: denoise; needs at least 2 samples */
   uint64_t seed;
-  const char* integrator; /* as `minkray render --integrator` has it; NULL: "auto" */
+  const char* integrator; /* as for `minkray render --integrator`; NULL: "auto" */
 } minkray_picture_options;
 
-/* One part of a picture. */
+/* One channel of a picture. */
 typedef struct minkray_channel {
-  const char* name; /* "rgb", the light, linear; or one of `minkray render --aov` but cryptomatte */
-  double* values;   /* the numbers of a pixel side by side, pixels in rows from the top */
-  size_t count;     /* of values: width * height * numbers of a pixel */
+  const char* name; /* "rgb" (linear), or one of `minkray render --aov` except cryptomatte */
+  double* values;   /* interleaved numbers of pixels, in rows from the top */
+  size_t count;     /* of values: width * height * numbers per pixel */
 } minkray_channel;
 
 /* Count of a channel's numbers per pixel, and if they are integers; both may be NULL. */
@@ -433,8 +432,8 @@ MINKRAY_API int minkray_scene_picture_size(minkray_scene scene,
                                            const minkray_picture_options* options, uint32_t* width,
                                            uint32_t* height);
 
-/* Renders the scene: the same bits as `minkray render` makes of an equivalent file, for any number
- * of threads. Added shapes are grey. Either options may be NULL. */
+/* Renders the scene: bit-identical to `minkray render` of an equivalent file, for any number of
+ * threads. Added shapes are grey. Both options may be NULL. */
 MINKRAY_API int minkray_scene_render(minkray_scene scene, const minkray_picture_options* options,
                                      const minkray_channel* channels, size_t count,
                                      const minkray_options* how);
@@ -443,18 +442,18 @@ MINKRAY_API int minkray_scene_render(minkray_scene scene, const minkray_picture_
 
 typedef enum minkray_distance_status {
   MINKRAY_SEPARATED = 0,
-  MINKRAY_TOUCHING = 1, /* the bounds are on both sides of 0 */
+  MINKRAY_TOUCHING = 1, /* 0 is between the bounds */
   MINKRAY_OVERLAPPING = 2,
   MINKRAY_UNDECIDED = 3 /* the bounds hold, but are not within the tolerance */
 } minkray_distance_status;
 
 typedef struct minkray_distance {
-  double value; /* between lower and upper; less than zero: how deep they are in each other */
+  double value; /* between lower and upper; of an overlap minus the depth */
   double lower;
   double upper;
   double point_a[3]; /* point_b - point_a = value normal, to rounding or a contact's 3e-6 sizes */
   double point_b[3];
-  double normal[3]; /* from a to b, of length 1 */
+  double normal[3]; /* unit vector from a to b */
   int32_t status;   /* a minkray_distance_status */
   int32_t supports;
 } minkray_distance;
@@ -462,8 +461,8 @@ typedef struct minkray_distance {
 typedef struct minkray_distance_options {
   size_t size;       /* sizeof(minkray_distance_options) */
   double tolerance;  /* largest gap of the bounds, relative to the shapes' sizes; 0: 1e-10 */
-  double at_most;    /* beyond this distance it is enough to know so; 0: none */
-  int32_t only_sign; /* 1: computes only if they overlap */
+  double at_most;    /* beyond this distance a lower bound is enough; 0: none */
+  int32_t only_sign; /* 1: only decide if they overlap */
   int32_t reserved;
 } minkray_distance_options;
 
@@ -486,13 +485,13 @@ typedef enum minkray_impact_status {
   MINKRAY_IMPACT = 0,
   MINKRAY_NO_IMPACT = 1, /* proven */
   MINKRAY_BEGINS_INSIDE = 2,
-  MINKRAY_IMPACT_UNDECIDED = 3 /* no impact before t_lo; no more is known */
+  MINKRAY_IMPACT_UNDECIDED = 3 /* no impact before t_lo; later impact unknown */
 } minkray_impact_status;
 
 typedef struct minkray_impact {
-  double t_lo;     /* proven to be apart before this; t_max of MINKRAY_NO_IMPACT */
-  double t_hi;     /* contact here; infinite of MINKRAY_NO_IMPACT and MINKRAY_IMPACT_UNDECIDED */
-  double distance; /* between them at t_lo; infinite if it is not known */
+  double t_lo;     /* proven apart before this; t_max if MINKRAY_NO_IMPACT */
+  double t_hi;     /* contact here; infinite if MINKRAY_NO_IMPACT or MINKRAY_IMPACT_UNDECIDED */
+  double distance; /* between the two at t_lo; infinite if unknown */
   double point_a[3];
   double point_b[3];
   double normal[3];
@@ -511,47 +510,47 @@ MINKRAY_API int minkray_time_of_impact(minkray_shape a, const minkray_pose* pose
 typedef struct minkray_clearance_options {
   size_t size;            /* sizeof(minkray_clearance_options) */
   double tolerance;       /* largest gap of the bounds, relative to the clearance; 0: 0.01 */
-  int32_t only_obstacles; /* 1: not of the robot's links to each other */
+  int32_t only_obstacles; /* 1: obstacles only, no self-collision */
   int32_t threads;        /* 0: one per core */
 } minkray_clearance_options;
 
 /* The least signed distance between the robot and the objects around it, and between its links that
  * no joint connects, along the whole path and not at some samples. */
 typedef struct minkray_clearance {
-  double lower; /* proven lower bound; infinite if there is nothing to meet */
+  double lower; /* proven lower bound; infinite without other objects */
   double upper; /* reached at `row` */
   double row;   /* 2.25: a quarter of the way from path[2] to path[3] */
   double point_a[3];
   double point_b[3];
-  double normal[3];  /* from a to b, of length 1 */
+  double normal[3];  /* unit vector from a to b */
   uint32_t object_a; /* particles are numbered as in a minkray_hit */
   uint32_t object_b;
   int32_t is_settled; /* 0 if the bounds are not within the tolerance */
   int32_t reserved;
 } minkray_clearance;
 
-/* Clearance of a robot on its way by `rows` rows of `numbers` joint values each, in the order of
- * minkray_scene_joint; from row to row each joint moves at a constant rate. `steps` (or NULL) has
- * one result for each two consecutive rows, or one if there is one row; `least` (or NULL) is the
- * least of all. Pairs excluded by minkray_scene_allow or masks are left out. The shapes are those
- * that the file was added with: see `geometry` of minkray_file_options. With more than 1,000,000
- * objects and particles, or 10,000,000 pairs, returns MINKRAY_BAD_INPUT. The scene must be
- * committed; the current values of the robot's joints do not matter. */
+/* Clearance of a robot along a path of `rows` rows of `numbers` joint values each, in the order of
+ * minkray_scene_joint, linear between rows. `steps` (or NULL) has one result per pair of
+ * consecutive rows, or one for a single row; `least` (or NULL) is the least of all. Pairs excluded
+ * by minkray_scene_allow or masks are skipped. The shapes are those that the file was added with:
+ * see `geometry` of minkray_file_options. With more than 1,000,000 objects and particles, or
+ * 10,000,000 pairs, returns MINKRAY_BAD_INPUT. The scene must be committed; the current values of
+ * the robot's joints do not matter. */
 MINKRAY_API int minkray_scene_clearance(minkray_scene scene, uint32_t group, const double* path,
                                         size_t rows, size_t numbers,
                                         const minkray_clearance_options* options,
                                         minkray_clearance* steps, minkray_clearance* least);
 
-/* Verdict on a motion: proven free of collisions at all times, or a pair collides at a named
- * moment, or neither is known within the budget. */
+/* Verdict on a motion: proven free of collisions at all times, a collision of a pair, or undecided
+ * within the budget. */
 enum { MINKRAY_MOTION_FREE = 0, MINKRAY_MOTION_COLLIDES = 1, MINKRAY_MOTION_UNDECIDED = 2 };
 
 typedef struct minkray_verdict_options {
   size_t size;            /* sizeof(minkray_verdict_options) */
   double tolerance;       /* largest gap of the bounds, relative to the clearance; 0: 0.01 */
   double margin;          /* least distance from obstacles; 0: the robot must not touch them */
-  size_t budget;          /* distances of a pair in a step; 0: 4000 */
-  int32_t only_obstacles; /* 1: not of the robot's links to each other */
+  size_t budget;          /* distance queries per pair and step; 0: 4000 */
+  int32_t only_obstacles; /* 1: obstacles only, no self-collision */
   int32_t threads;        /* 0: one per core */
   /* Read only if `size` covers them. */
   const double* accelerations; /* or NULL; as `rates`, which they need: the second derivatives */
@@ -560,22 +559,22 @@ typedef struct minkray_verdict_options {
 } minkray_verdict_options;
 
 typedef struct minkray_verdict {
-  double lower; /* proven: no clearance (distance less margin) is less; -infinity unless free */
-  double upper; /* the least clearance seen; of a collision less than 0 */
-  double row;   /* place of `upper`: 2.25 is a quarter of the way from path[2] to path[3] */
-  double begin; /* the first stretch that collides, or may; outside that pair is apart */
+  double lower; /* proven lower bound of distance minus margin; -infinity unless free */
+  double upper; /* the least clearance found; negative for a collision */
+  double row;   /* position of `upper`: 2.25 is a quarter of the way from path[2] to path[3] */
+  double begin; /* first interval in which the pair collides, or may collide */
   double end;
-  double point[3];   /* in the middle between the two, or within both */
+  double point[3];   /* midpoint between the two, or inside both */
   uint32_t object_a; /* the pair; MINKRAY_NO_OBJECT if there is none */
   uint32_t object_b;
   int32_t status; /* MINKRAY_MOTION_... */
   int32_t reserved;
 } minkray_verdict;
 
-/* Judges a robot's motion by rows as in minkray_scene_clearance. `rates` (or NULL) are as many
- * numbers, the derivatives of the joints' values by the row: from row to row joints then move as
- * cubics, with accelerations as quintics, except quaternions. Returns MINKRAY_BAD_INPUT if a proof
- * was requested that is impossible; for an undecided motion none is written. */
+/* Verifies a robot's motion along a path as in minkray_scene_clearance. `rates` (or NULL) has as
+ * many numbers, the derivatives of joint values per row: joints then move as cubics between rows,
+ * with accelerations as quintics, except quaternions. Returns MINKRAY_BAD_INPUT for a proof that is
+ * impossible; an undecided motion has none. */
 MINKRAY_API int minkray_scene_verify(minkray_scene scene, uint32_t group, const double* path,
                                      const double* rates, size_t rows, size_t numbers,
                                      const minkray_verdict_options* options,

@@ -21,27 +21,26 @@ extern "C" {
 
 typedef enum minkray_pose_kind {
   MINKRAY_POSE_MATRIX = 0,     /* the 12 numbers of a minkray_pose */
-  MINKRAY_POSE_QUATERNION = 1, /* x, y, z, qw, qx, qy, qz; the quaternion of any length but zero */
+  MINKRAY_POSE_QUATERNION = 1, /* x, y, z, qw, qx, qy, qz; quaternion of any length except 0 */
   MINKRAY_POSE_MATRIX_4X4 = 2  /* 16 numbers, row by row; the last row is 0, 0, 0, 1 */
 } minkray_pose_kind;
 
-/* One side of many pairs. Each of the three arrays has as many items as pairs, or one for all
- * pairs. */
+/* One side of many pairs. Each of the three arrays has one item per pair, or one for all pairs. */
 typedef struct minkray_bodies {
   size_t size; /* sizeof(minkray_bodies) */
   const minkray_shape* shapes;
   size_t shape_count;
   const double* poses; /* NULL: the identity, for all */
   size_t pose_count;
-  ptrdiff_t pose_stride; /* bytes from one pose to the next; 0: they have no room in between */
-  const minkray_twist* twists; /* for times of impact alone; NULL: at rest */
+  ptrdiff_t pose_stride;       /* bytes from one pose to the next; 0: contiguous */
+  const minkray_twist* twists; /* for times of impact only; NULL: at rest */
   size_t twist_count;
   int32_t pose_kind; /* a minkray_pose_kind */
   int32_t reserved;
 } minkray_bodies;
 
-/* Final state of a query on a pair, kept by its caller for the next one on the same pair, which is
- * then faster if the two have moved little. Zeros are an empty one. The bounds hold for any
+/* Warm start: the final state of a query on a pair, kept by the caller for the next query on the
+ * same pair, which is faster if the two have moved little. Zeros: empty. Bounds hold for any
  * contents; the result's last digits depend on it. */
 typedef struct minkray_pair_memory {
   uint64_t words[8];
@@ -49,13 +48,13 @@ typedef struct minkray_pair_memory {
 
 /* NULL arrays are not filled. A pair's derivative is by a twist of a body at the time of the query:
  * by the velocity of its frame's origin (the pose's translation) along the world's axes, then by
- * its angular velocity about that point. `is_ridge` is 1 where the bounds do not exclude that there
- * are several derivatives: for parallel faces, an edge on a face, a depth in two directions; the
- * reported one is one of them. Where nothing is known of the distance derivatives are NaN. If any
- * of these is wanted distances are found to a tolerance of 1e-15, and the direction of a depth to
- * rounding. `jac_error_a` and `jac_error_b` bound the length of a derivative's error: by velocity,
- * and by angular velocity. Both are infinite on ridges, for meshes, for depths in more than one
- * direction, and for turns about points that may slide on a surface of unknown curvature. */
+ * its angular velocity about that point. `is_ridge` is 1 where the bounds do not exclude several
+ * derivatives: for parallel faces, an edge on a face, a depth in two directions; the reported one
+ * is one of them. Derivatives are NaN if the distance is unknown. If any is requested, distances
+ * are computed to a tolerance of 1e-15, and the direction of a depth to rounding. `jac_error_a` and
+ * `jac_error_b` bound the length of a derivative's error: by velocity, and by angular velocity.
+ * Both are infinite on ridges, for meshes, for depths in more than one direction, and for turns
+ * about points that may slide on a surface of unknown curvature. */
 typedef struct minkray_distance_arrays {
   size_t size;                 /* sizeof(minkray_distance_arrays) */
   minkray_distance* distances; /* all of a pair in one struct */
@@ -74,17 +73,17 @@ typedef struct minkray_distance_arrays {
   double* jac_error_b;
 } minkray_distance_arrays;
 
-/* Signed distances of `count` pairs: each has the bits of minkray_signed_distance, for any number
- * of threads. `memories` are as many as pairs, or NULL. Either options may be NULL. */
+/* Signed distances of `count` pairs, bit-identical to minkray_signed_distance for any number of
+ * threads. `memories` has one per pair, or is NULL. Both options may be NULL. */
 MINKRAY_API int minkray_signed_distances(const minkray_bodies* a, const minkray_bodies* b,
                                          size_t count, const minkray_distance_options* options,
                                          minkray_pair_memory* memories,
                                          const minkray_distance_arrays* distances,
                                          const minkray_options* how);
 
-/* NULL arrays are not filled. Derivatives are those of the first contact's time by a twist of each
- * body's pose at time 0; NaN where there is no contact, zero where the two begin inside each other.
- * `is_ridge` is 1 where there may be several or none, as where they graze. */
+/* NULL arrays are not filled. Derivatives of the first contact's time by a twist of each body's
+ * pose at time 0: NaN without contact, zero if the two overlap at time 0. `is_ridge` is 1 where the
+ * derivative may be ambiguous or undefined, as for a grazing contact. */
 typedef struct minkray_impact_arrays {
   size_t size; /* sizeof(minkray_impact_arrays) */
   minkray_impact* impacts;
@@ -100,34 +99,34 @@ typedef struct minkray_impact_arrays {
   uint8_t* status; /* a minkray_impact_status */
 } minkray_impact_arrays;
 
-/* Times of impact of `count` pairs. `t_max` are as many as pairs, or one. */
+/* Times of impact of `count` pairs. `t_max` has one number per pair, or one. */
 MINKRAY_API int minkray_times_of_impact(const minkray_bodies* a, const minkray_bodies* b,
                                         size_t count, const double* t_max, size_t t_max_count,
                                         minkray_pair_memory* memories,
                                         const minkray_impact_arrays* impacts,
                                         const minkray_options* how);
 
-/* Up to four points of contact: corners of the parts of the two shapes that face each other, one
- * over the other along the normal: point_b - point_a = gap normal. The first is that of the signed
- * distance. */
+/* Up to four contact points: corners of the parts of the two shapes that face each other, paired
+ * along the normal: point_b - point_a = gap normal. The first pair is that of the signed distance.
+ */
 typedef struct minkray_manifold {
-  double normal[3]; /* from a to b, of length 1 */
+  double normal[3]; /* unit vector from a to b */
   double points_a[4][3];
   double points_b[4][3];
   double gaps[4]; /* negative: the depth of the overlap there */
   double value;   /* the signed distance, as in a minkray_distance */
   double lower;
   double upper;
-  int32_t count;  /* 0 if nothing is known of the distance; entries beyond it are NaN */
+  int32_t count;  /* 0 if the distance is unknown; entries beyond it are NaN */
   int32_t status; /* a minkray_distance_status */
 } minkray_manifold;
 
-/* Those that are NULL are not filled. */
+/* NULL arrays are not filled. */
 typedef struct minkray_manifold_arrays {
   size_t size; /* sizeof(minkray_manifold_arrays) */
   minkray_manifold* manifolds;
   double* normals;  /* three per pair */
-  double* points;   /* in the middle between those of a and b: four times three per pair */
+  double* points;   /* midpoints of those of a and b: four times three per pair */
   double* points_a; /* likewise */
   double* points_b;
   double* gaps; /* four per pair */
@@ -138,7 +137,7 @@ typedef struct minkray_manifold_arrays {
   uint8_t* status;
 } minkray_manifold_arrays;
 
-/* Points of contact of `count` pairs. */
+/* Contact points of `count` pairs. */
 MINKRAY_API int minkray_manifolds(const minkray_bodies* a, const minkray_bodies* b, size_t count,
                                   const minkray_distance_options* options,
                                   minkray_pair_memory* memories,
@@ -151,7 +150,7 @@ MINKRAY_API int minkray_manifolds(const minkray_bodies* a, const minkray_bodies*
  * numbered as in a minkray_hit. */
 
 /* Sets which pairs are tested: those where each object's mask has a bit of the other's category. By
- * default categories are 1 and masks have all bits. Changes the scene; no commit is due for it. */
+ * default categories are 1 and masks have all bits. Changes the scene; needs no commit. */
 MINKRAY_API int minkray_scene_set_masks(minkray_scene scene, uint32_t object, uint32_t category,
                                         uint32_t mask);
 
@@ -161,8 +160,7 @@ MINKRAY_API int minkray_scene_allow(minkray_scene scene, uint32_t object_a, uint
 
 /* Allows the pairs of links that may touch according to an SRDF file, MoveIt's description of a
  * robot: its `disable_collisions`, `disable_default_collisions` and `enable_collisions`.
- * `group` is a robot's. A link that the robot does not have is MINKRAY_BAD_INPUT, and no pair
- * is allowed then. */
+ * `group` is a robot's. An unknown link is MINKRAY_BAD_INPUT, and no pair is allowed then. */
 MINKRAY_API int minkray_scene_allow_from_srdf(minkray_scene scene, uint32_t group,
                                               const char* file);
 
@@ -172,29 +170,29 @@ typedef struct minkray_scene_pair {
   minkray_distance distance;
   double jac_a[6];
   double jac_b[6];
-  uint32_t object_a; /* less than object_b; MINKRAY_NO_OBJECT for a shape of none */
-  uint32_t object_b; /* MINKRAY_NO_OBJECT where there is none: all numbers are infinite */
+  uint32_t object_a; /* less than object_b; MINKRAY_NO_OBJECT for a given shape */
+  uint32_t object_b; /* MINKRAY_NO_OBJECT if there is none: all numbers are infinite */
   int32_t is_ridge;
   int32_t reserved;
 } minkray_scene_pair;
 
 typedef struct minkray_near_options {
   size_t size;         /* sizeof(minkray_near_options) */
-  double within;       /* pairs proven to be further apart are left out; at least 0, or infinite */
+  double within;       /* pairs proven to be further apart are skipped; at least 0, or infinite */
   double tolerance;    /* as in minkray_distance_options */
-  int32_t derivatives; /* 1: computes derivatives, too */
-  uint32_t mask;       /* for shapes that are no object: categories to test; 0: all */
+  int32_t derivatives; /* 1: add derivatives */
+  uint32_t mask;       /* for given shapes and points: categories to test; 0: all */
 } minkray_near_options;
 
 /* Receives all pairs at once, in the order of their numbers, on the calling thread. The pairs are
- * invalid after it returns. Returns 0, or anything else to end the call with MINKRAY_STOPPED. */
+ * invalid after it returns. Returns 0, or nonzero to end the call with MINKRAY_STOPPED. */
 typedef int (*minkray_take_pairs)(void* user, const minkray_scene_pair* pairs, size_t count);
 
-/* All pairs of objects that are no further apart than `within`. Left out are pairs that masks
- * exclude, or that are allowed; pairs of two half-spaces; and for a robot from a file pairs that do
- * not move against each other, or that a joint connects. `pairs` may be NULL; otherwise exactly
- * those pairs are computed, two numbers each, `count` of them, in their order, regardless of masks
- * and allowed pairs. Options may be NULL: 0 and no derivatives. In `how` only the threads count. */
+/* All pairs of objects that are no further apart than `within`. Skips pairs that masks exclude or
+ * that are allowed, pairs of half-spaces, and links of a robot that do not move relative to each
+ * other or that a joint connects. With `pairs` (or NULL) exactly these `count` pairs are computed,
+ * two numbers each, in their order, regardless of masks and allowed pairs. Options may be NULL:
+ * within 0, no derivatives. Only the threads of `how` are used. */
 MINKRAY_API int minkray_scene_distances(minkray_scene scene, const uint32_t* pairs, size_t count,
                                         const minkray_near_options* options,
                                         minkray_take_pairs take, void* user,
@@ -206,38 +204,38 @@ MINKRAY_API int minkray_scene_nearest(minkray_scene scene, const double (*points
                                       size_t k, const minkray_near_options* options,
                                       minkray_scene_pair* nearest, const minkray_options* how);
 
-/* The object nearest to each of many shapes that are no part of the scene. These are the a of a
- * pair. With `within` NULL or infinite there is always one, if the scene is not empty. */
+/* The object nearest to each of many given shapes, which are not part of the scene and are the a of
+ * a pair. With `within` NULL or infinite there always is one, unless the scene is empty. */
 MINKRAY_API int minkray_scene_distance_to(minkray_scene scene, const minkray_bodies* shapes,
                                           size_t count, const minkray_near_options* options,
                                           minkray_scene_pair* nearest, const minkray_options* how);
 
 /* First contact of a shape that moves through the scene. */
 typedef struct minkray_scene_impact {
-  minkray_impact impact; /* no object is touched before t_lo; the object is, at t_hi */
+  minkray_impact impact; /* no contact before t_lo; contact at t_hi */
   double jac[6];         /* of the time, by a twist of the shape at time 0 */
-  uint32_t object;       /* MINKRAY_NO_OBJECT if nothing is touched */
+  uint32_t object;       /* MINKRAY_NO_OBJECT without contact */
   int32_t is_ridge;
 } minkray_scene_impact;
 
-/* Casts shapes through the scene, at times from 0 to t_max: one, or one for each. Options may be
- * NULL; only derivatives and the mask count. */
+/* Casts shapes through the scene, at times from 0 to t_max (one number, or one per shape). Options
+ * may be NULL; only derivatives and the mask are used. */
 MINKRAY_API int minkray_scene_time_of_impact(minkray_scene scene, const minkray_bodies* shapes,
                                              size_t count, const double* t_max, size_t t_max_count,
                                              const minkray_near_options* options,
                                              minkray_scene_impact* impacts,
                                              const minkray_options* how);
 
-/* Points of contact of two objects, regardless of masks. */
+/* Contact points of two objects, regardless of masks. */
 MINKRAY_API int minkray_scene_manifold(minkray_scene scene, uint32_t object_a, uint32_t object_b,
                                        minkray_manifold* manifold);
 
 /* ---- derivatives of rays --------------------------------------------------------------------- */
 
 /* NULL arrays are not filled: six numbers per ray. Derivatives of a ray's t by its origin and its
- * direction, and by a twist of the object that it meets about the origin of its frame. Zero where
- * the ray begins inside, NaN where nothing is met. `is_ridge` is 1 where there may be others: for a
- * ray through an edge, that grazes a shape, or that meets two objects at once. */
+ * direction, and by a twist of the hit object about the origin of its frame. Zero if the ray begins
+ * inside, NaN for a miss. `is_ridge` is 1 where the derivative may be ambiguous: the ray passes
+ * through an edge, grazes a shape, or hits two objects at once. */
 typedef struct minkray_ray_derivatives {
   size_t size; /* sizeof(minkray_ray_derivatives) */
   double* jac_ray;
@@ -245,8 +243,8 @@ typedef struct minkray_ray_derivatives {
   uint8_t* is_ridge;
 } minkray_ray_derivatives;
 
-/* Derivatives of t. Takes the results of minkray_scene_cast_arrays for the same rays: t and its
- * bounds, points, normals, objects and status must be there. */
+/* Derivatives of t. Needs the results of minkray_scene_cast_arrays for the same rays: t and its
+ * bounds, points, normals, objects and status. */
 MINKRAY_API int minkray_scene_ray_derivatives(minkray_scene scene, const minkray_ray_arrays* rays,
                                               size_t count, const minkray_hit_arrays* hits,
                                               const minkray_ray_derivatives* derivatives,
@@ -255,11 +253,11 @@ MINKRAY_API int minkray_scene_ray_derivatives(minkray_scene scene, const minkray
 /* ---- derivatives of clearances --------------------------------------------------------------- */
 
 /* Clearances with their derivatives by the joints, else as minkray_scene_clearance. `jac` gets
- * `numbers` numbers for each step: the derivative of the distance that `upper` bounds by the
- * joints' values at `row`. Quaternions are of length 1 between rows, and count as given at a row.
- * Joints that mimic others have zeros. All are zero where there is nothing to meet. `is_ridge` is 1
- * where there may be other derivatives, or where another pair is as near at `row`. Each of `steps`,
- * `jac` and `is_ridge` may be NULL. */
+ * `numbers` numbers per step: the derivative of the distance that `upper` bounds by the joint
+ * values at `row`. Quaternions have length 1 between rows, and count as given at a row. Joints that
+ * mimic others have zeros. All are zero without other objects. `is_ridge` is 1 where the derivative
+ * may be ambiguous, or another pair is as near at `row`. Each of `steps`, `jac` and `is_ridge` may
+ * be NULL. */
 MINKRAY_API int minkray_scene_clearance_derivatives(minkray_scene scene, uint32_t group,
                                                     const double* path, size_t rows, size_t numbers,
                                                     const minkray_clearance_options* options,

@@ -19,22 +19,22 @@ inline namespace v0 {
 
 static_assert(sizeof(Shape) == sizeof(minkray_shape) && std::is_standard_layout_v<Shape>);
 
-/// One side of many pairs: as many of each as there are pairs, or one for all of them. Without
-/// poses it is at the identity, without twists at rest. Poses are rigid.
+/// One side of many pairs: one shape and pose per pair, or one for all. Default: identity poses, at
+/// rest. Poses are rigid.
 struct Bodies {
   View<const Shape> shapes = {};
   View<const Pose> poses = {};
   View<const Twist> twists = {};
 };
 
-/// Final state of a query on a pair, for the next one on the same pair: a value to be copied and
-/// kept. Initially empty.
+/// Warm start: the final state of a query on a pair, for the next query on the same pair. A value;
+/// initially empty.
 struct PairMemory {
   std::uint64_t words[8] = {};
 };
 static_assert(sizeof(PairMemory) == sizeof(minkray_pair_memory));
 
-/// Up to four points of contact; see minkray_manifold.
+/// Up to four contact points; see minkray_manifold.
 struct Manifold {
   Vec3 normal;
   Vec3 points_a[4], points_b[4];
@@ -45,13 +45,13 @@ struct Manifold {
 static_assert(sizeof(Manifold) == sizeof(minkray_manifold) &&
               offsetof(Manifold, count) == offsetof(minkray_manifold, count));
 
-/// Bounds of the length of a derivative's error; infinite where nothing is known.
+/// Bounds of the length of a derivative's error; infinite if unknown.
 struct DerivativeError {
   double velocity = 0, turn = 0;
 };
 
 /// Derivatives by a twist of each body: by the velocity of its origin, and by a turn about that.
-/// `is_ridge` is set where there may be others. Those without room are omitted.
+/// `is_ridge` is set where they may be ambiguous. Empty views are not filled.
 struct Derivatives {
   View<Twist> by_a = {}, by_b = {};
   View<std::uint8_t> is_ridge = {};
@@ -60,9 +60,9 @@ struct Derivatives {
 
 /// Options of queries on many pairs.
 struct PairOptions {
-  double tolerance = 0;            ///< of the bounds, in the shapes' sizes; 0: 1e-10
-  double at_most = 0;              ///< beyond this distance it is enough to know so; 0: none
-  View<PairMemory> memories = {};  ///< as many as pairs, or none
+  double tolerance = 0;            ///< gap of the bounds, relative to the sizes; 0: 1e-10
+  double at_most = 0;              ///< beyond this distance a lower bound is enough; 0: none
+  View<PairMemory> memories = {};  ///< one per pair, or none
   Derivatives derivatives = {};
   Options how = {};
 };
@@ -83,7 +83,7 @@ inline minkray_bodies plain(const Bodies& bodies) {
 inline minkray_distance_options plain(const PairOptions& options) {
   return {sizeof(minkray_distance_options), options.tolerance, options.at_most, 0, 0};
 }
-/// Null if there are none; throws if there are not as many as pairs.
+/// Null without memories; throws unless there is one per pair.
 template <class Plain, class Thing>
 Plain* of_pairs(const char* function, const char* argument, View<Thing> things, std::size_t pairs) {
   if (things.size() == 0) return nullptr;
@@ -105,8 +105,8 @@ void add_derivatives(const char* function, const Derivatives& to, std::size_t pa
 }
 }  // namespace detail
 
-/// Signed distances of as many pairs as there is room for results. The bits are those of
-/// signed_distance(), for any number of threads.
+/// Signed distances of as many pairs as `distances` has room for, bit-identical to
+/// signed_distance() for any number of threads.
 inline void signed_distances(const Bodies& a, const Bodies& b, View<Distance> distances,
                              const PairOptions& options = {}) {
   constexpr const char* function = "minkray::signed_distances";
@@ -127,7 +127,7 @@ inline void signed_distances(const Bodies& a, const Bodies& b, View<Distance> di
                                &arrays, &how));
 }
 
-/// First contacts of many pairs, at times from 0 to t_max: one for each pair, or one for all.
+/// First contacts of many pairs, at times from 0 to t_max (one number per pair, or one for all).
 inline void times_of_impact(const Bodies& a, const Bodies& b, View<const double> t_max,
                             View<Impact> impacts, const PairOptions& options = {}) {
   constexpr const char* function = "minkray::times_of_impact";
@@ -142,7 +142,7 @@ inline void times_of_impact(const Bodies& a, const Bodies& b, View<const double>
       &arrays, &how));
 }
 
-/// Points of contact of many pairs. There are no derivatives of them.
+/// Contact points of many pairs, without derivatives.
 inline void manifolds(const Bodies& a, const Bodies& b, View<Manifold> found,
                       const PairOptions& options = {}) {
   const minkray_bodies plain_a = detail::plain(a), plain_b = detail::plain(b);
@@ -157,7 +157,7 @@ inline void manifolds(const Bodies& a, const Bodies& b, View<Manifold> found,
                         &arrays, &how));
 }
 
-/// Begins with what the last query on this pair left in the memory.
+/// Starts from the memory of the last query on this pair.
 inline Distance signed_distance(const Shape& a, const Pose& pose_a, const Shape& b,
                                 const Pose& pose_b, PairMemory& memory, double tolerance = 0) {
   Distance found;
@@ -171,8 +171,7 @@ inline Distance signed_distance(const Shape& a, const Pose& pose_a, const Shape&
 
 // ---- the pairs of a scene ----
 
-/// Two objects and their distance; no_object represents a shape or point that is no object, or
-/// means that there is no such object.
+/// Two objects and their distance; no_object is used for a given shape or point, or for no result.
 struct ScenePair {
   Distance distance;
   Twist by_a, by_b;  ///< derivatives, zero unless requested
@@ -219,7 +218,7 @@ class ScenePairs {
 
 /// First contact of a shape that moves through a scene.
 struct SceneImpact {
-  Impact impact;   ///< no object is touched before t_lo; the object is, at t_hi
+  Impact impact;   ///< no contact before t_lo; contact at t_hi
   Twist by_shape;  ///< the time's derivative by a twist of the shape's pose at time 0
   std::uint32_t object = no_object;
   std::int32_t is_ridge = 0;
@@ -229,10 +228,10 @@ static_assert(sizeof(SceneImpact) == sizeof(minkray_scene_impact) &&
 
 /// Options of queries on a scene's pairs.
 struct NearOptions {
-  double within = std::numeric_limits<double>::infinity();  ///< pairs further apart are left out
-  double tolerance = 0;      ///< of the bounds, in the shapes' sizes; 0: 1e-10
-  bool derivatives = false;  ///< computes derivatives, too
-  std::uint32_t mask = 0;    ///< for shapes that are no object: categories to test; 0: all
+  double within = std::numeric_limits<double>::infinity();  ///< pairs further apart are skipped
+  double tolerance = 0;      ///< gap of the bounds, relative to the sizes; 0: 1e-10
+  bool derivatives = false;  ///< add derivatives
+  std::uint32_t mask = 0;    ///< for given shapes and points: categories to test; 0: all
   Options how = {};
 };
 
@@ -242,7 +241,7 @@ inline minkray_near_options plain(const NearOptions& options) {
           options.derivatives ? 1 : 0, options.mask};
 }
 
-/// Keeps the pairs from minkray_scene_distances; `no_room`: there was no memory for them.
+/// Keeps the pairs from minkray_scene_distances; `no_room`: out of memory.
 struct TakenPairs {
   ScenePairs pairs;
   bool no_room = false;

@@ -25,7 +25,7 @@ inline std::vector<std::string> subalgorithm_names() {
 
 /// Adds --solver, whose help has one line per solver.
 inline Option add_solver_option(const Verb& verb, std::string& solver) {
-  std::string help = "How rays are cast:";
+  std::string help = "Ray-cast solver:";
   for (const SolverDescription& description : solver_descriptions)
     help += "\n" + std::string(description.name) + ": " + std::string(description.doc);
   return verb.add_option("--solver", solver, help)

@@ -59,7 +59,7 @@ std::string scene_file(const std::string& name) {
   const std::vector<std::string> known = built_in_scenes();
   const auto meant = closest_word(name, known);
   for (const std::string& scene : known) names += (names.empty() ? "" : ", ") + scene;
-  throw BadInput(name + ": must be a scene's file or one of the scenes that come with Minkray (" +
+  throw BadInput(name + ": must be a scene file or one of the scenes that come with Minkray (" +
                  (names.empty() ? "none is here" : names) + ")" +
                  (meant ? "; did you mean `" + *meant + "`?" : ""));
 }

@@ -12,7 +12,7 @@ namespace minkray {
 
 /// Description of an error while a file was read, in words for the user.
 inline std::string what_of(const std::exception& error) {
-  return dynamic_cast<const std::bad_alloc*>(&error) ? "there is not enough memory to read it"
+  return dynamic_cast<const std::bad_alloc*>(&error) ? "not enough memory to read it"
                                                      : error.what();
 }
 

@@ -83,8 +83,7 @@ std::string help_page(std::span<const VerbDescription> verbs, const std::string&
   for (const VerbDescription& verb : verbs) longest = std::max(longest, verb.name.size());
   const std::size_t column = longest + 4;
   std::string page = doc + "\nUsage: minkray COMMAND [OPTIONS]\n\nOptions:\n";
-  page +=
-      entry("-h,--help", "Print this help; minkray help COMMAND prints a command's", column + 2);
+  page += entry("-h,--help", "Print this help; for a command: minkray help COMMAND", column + 2);
   page += entry("--version", "Print the version", column + 2);
   page += "\nSubcommands:\n";
   for (const VerbDescription& verb : verbs) page += entry(verb.name, verb.doc, column);

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "renderer/cli/help_page.h"
+#include "renderer/cli/usage_errors.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/cli/words_meant.h"
 
@@ -334,7 +335,9 @@ std::string Parser::parse(const std::vector<std::string>& words) {
         return unknown;
     app_->exit(error, std::cout, complaints);
   }
-  return complaints.str();
+  const std::string complaint = complaints.str();
+  const std::size_t end = std::min(complaint.find('\n'), complaint.size());
+  return usage_error(complaint.substr(0, end)) + complaint.substr(end);
 }
 
 }  // namespace minkray

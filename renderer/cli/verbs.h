@@ -49,7 +49,7 @@ inline constexpr VerbRow verbs[] = {
      "minkray-tools",
      {"minkray cast queries.jsonl", "minkray cast - --certify < queries.jsonl"}},
     {"scan",
-     "Cast a sensor's rays at a scene: lidars, depths",
+     "Scan a scene with a sensor: lidar, depth camera",
      "minkray-tools",
      {"minkray scan scene.json --pattern spinning:16x360 -o sweep.ply",
       "minkray scan robot.urdf --pinhole camera.json --on head -o depth.png"}},
@@ -117,7 +117,7 @@ inline constexpr VerbRow verbs[] = {
 
 /// Adds a subcommand to the parser, which calls it within Parser::parse. The command writes results
 /// to stdout and all else to stderr. The command may set the exit code (done by default) or throw
-/// one of renderer/errors.h.
+/// one of renderer/base/errors.h.
 using AddVerb = void (*)(Parser& parser, ExitCode& exit_code);
 
 struct VerbHere {

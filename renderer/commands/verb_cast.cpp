@@ -248,7 +248,7 @@ ExitCode cast(const CastVerbOptions& options) {
   if (in.bad()) throw BadInput(name + ": cannot be read");
   if (options.certify)
     std::cerr << "certificates: " << certificates.holding << " hold, " << certificates.failing
-              << " do not; " << certificates.without << " answers without (distances, turning)\n";
+              << " do not; " << certificates.without << " results without (distances, turning)\n";
   has_wrong |= certificates.failing > 0;
   return has_malformed ? ExitCode::bad_input
                        : (has_wrong ? ExitCode::comparison_failed : ExitCode::done);
@@ -273,9 +273,9 @@ void add_cast(Parser& parser, ExitCode& exit_code) {
       .show_default();
   verb.add_flag("--trace", options->trace, "Add every iteration");
   verb.add_flag("--certify", options->certify,
-                "Prove every cast's answer; exit 1 if a proof fails");
+                "Prove every cast's result; exit with 1 if a proof fails");
   verb.add_flag("--check", options->check,
-                "Compare with what each query expects; exit 1 if anything differs");
+                "Compare with each query's \"expect\"; exit with 1 on any difference");
   verb.on_call([options, &exit_code] {
     with_threads(options->threads, [&] { exit_code = cast(*options); });
   });

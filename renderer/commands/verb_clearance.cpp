@@ -161,7 +161,7 @@ void add_clearance(Parser& parser, ExitCode& exit_code) {
   verb.add_option("--steps", options->steps, "Write the least clearance of each step (CSV)")
       .writes_file();
   verb.add_option("--sweep", options->sweep,
-                  "A scene file to write (.json): bodies that hold all that the links pass over")
+                  "Scene file to write (.json): bodies that enclose the swept links")
       .writes_file();
   add_import_options(verb, options->import, false);
   verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")

@@ -109,8 +109,7 @@ void add_field(Parser& parser, ExitCode&) {
   add_import_options(verb, options->import);
   add_output_option(verb, options->outputs, std::string("the scene's name and ") + field_suffix);
   options->preview.add_to(verb);
-  verb.add_option("--through", options->through,
-                  "The picture's middle; by default that of the scene")
+  verb.add_option("--through", options->through, "Centre of the picture (default: the scene's)")
       .takes("X,Y,Z");
   verb.add_option("--normal", options->normal, "Normal of the plane, towards the viewer")
       .takes("X,Y,Z")

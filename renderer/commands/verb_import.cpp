@@ -49,7 +49,7 @@ void add_import(Parser& parser, ExitCode&) {
       .writes_file();
   add_import_options(verb, options->import);
   verb.add_option("-r,--resolution", options->resolution,
-                  "Size of the pictures that the scene's camera frames everything for (960x720)")
+                  "Picture size for framing the camera (default 960x720)")
       .takes("WxH");
   verb.add_flag("-q,--quiet", options->quiet, "No report");
   verb.on_call([options] { import(*options); });

@@ -50,7 +50,8 @@ void add_merge(Parser& parser, ExitCode&) {
       .required()
       .reads_file();
   add_output_option(verb, options->outputs);
-  verb.add_option("--exposure", options->exposure, "Stops brighter, for .png").show_default();
+  verb.add_option("--exposure", options->exposure, "Exposure of PNG output in stops")
+      .show_default();
   verb.add_option("--tonemap", options->tone_map, "Tone mapping of PNG output")
       .one_of(tone_map_names())
       .show_default();

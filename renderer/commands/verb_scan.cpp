@@ -259,7 +259,7 @@ void add_scan(Parser& parser, ExitCode&) {
       .required()
       .one_value_each()
       .writes_file();
-  verb.add_option("--ids", options->table, "A JSON file for the objects' numbers and names")
+  verb.add_option("--ids", options->table, "JSON file to write: numbers and names of the objects")
       .writes_file();
   verb.add_flag("--half", options->has_halfs, "Write .exr with 16-bit floats");
   verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")

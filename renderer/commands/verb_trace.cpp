@@ -146,21 +146,21 @@ void add_trace(Parser& parser, ExitCode&) {
   options->files = &verb.files();
   add_scene_option(verb, options->scene);
   add_import_options(verb, options->import);
-  verb.add_option("--pixel", options->pixel, "x,y from the upper left corner; through its centre")
+  verb.add_option("--pixel", options->pixel, "Pixel x,y from the upper left corner")
       .required()
       .values(2, ',');
   verb.add_option("-r,--resolution", options->resolution,
                   "Size of the picture in pixels (default: the scene's)")
       .takes("WxH");
   add_camera_file_option(verb, options->camera_file);
-  verb.add_option("--object", options->object, "The object's name; by default the one that is hit")
+  verb.add_option("--object", options->object, "Name of the object (default: the one that is hit)")
       .takes("NAME");
   verb.add_option("--precision", options->precision, "Numbers of the cast")
       .one_of({"float", "double"})
       .show_default();
   add_solver_option(verb, options->solver);
   verb.add_flag("--json", options->json, "Print JSON");
-  verb.add_option("--svg", options->svg, "Also draw it into this file").writes_file();
+  verb.add_option("--svg", options->svg, "Also draw the cast into this file (SVG)").writes_file();
   verb.on_call([options] {
     if (options->precision == "float")
       trace<float>(*options);

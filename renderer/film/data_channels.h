@@ -24,22 +24,21 @@ struct DataChannelDescription {
 
 /// The list of all there are.
 inline constexpr std::array data_channels = {
-    DataChannelDescription{"Z", "", "depth along the camera's axis; infinite where nothing is met"},
-    DataChannelDescription{"dist", "", "distance from the camera; infinite where nothing is met"},
+    DataChannelDescription{"Z", "", "depth along the camera's axis; infinite for a miss"},
+    DataChannelDescription{"dist", "", "distance from the camera; infinite for a miss"},
     DataChannelDescription{"N", "XYZ", "the surface's outward unit normal in the world, or 0"},
     DataChannelDescription{"P", "XYZ", "the hit point in the world, or 0"},
-    DataChannelDescription{"id.object", "", "1 + the object's place in the scene, or 0 (integer)"},
+    DataChannelDescription{"id.object", "", "1 + the object's index in the scene, or 0 (integer)"},
     DataChannelDescription{"gjk.iterations", "", "solver iterations of all casts (integer)"},
     DataChannelDescription{"gjk.supports", "", "support points of all casts (integer)"},
     DataChannelDescription{"gjk.gap", "",
-                           "the width of the interval that encloses the hit; 0 where none is"},
+                           "width of the interval that encloses the hit; 0 for a miss"},
     DataChannelDescription{"albedo", "RGB", "the colour of the surface's material, or 0"},
-    DataChannelDescription{"emission", "RGB", "what the surface shines by itself, or 0"},
-    DataChannelDescription{"thickness", "",
-                           "how far the ray would go on within the object; 0 where none is"},
+    DataChannelDescription{"emission", "RGB", "light emitted by the surface, or 0"},
+    DataChannelDescription{"thickness", "", "length of the ray inside the object; 0 for a miss"},
     DataChannelDescription{"uv", "UV",
-                           "longitude and latitude around the object's origin, as parts of a turn "
-                           "and of half a turn: the mapping radial; or 0"},
+                           "longitude and latitude around the object's origin, in turns and half "
+                           "turns (mapping radial); or 0"},
     DataChannelDescription{"motion", "XY",
                            "motion of the point while the shutter is open, in pixels; or 0"},
     DataChannelDescription{"direct", "RGB",
@@ -47,18 +46,17 @@ inline constexpr std::array data_channels = {
                            DataChannelDescription::By::samples},
     DataChannelDescription{"indirect", "RGB", "the rest of the picture's light",
                            DataChannelDescription::By::samples},
-    DataChannelDescription{
-        "variance", "RGB",
-        "the squared standard error of the picture's light, by the spread of its "
-        "samples",
-        DataChannelDescription::By::samples},
+    DataChannelDescription{"variance", "RGB",
+                           "squared standard error of the pixel, estimated from its samples",
+                           DataChannelDescription::By::samples},
     DataChannelDescription{
         "cryptomatte", "",
         "mattes of all objects by name: the planes CryptoObject00.R to 02.A, and "
         "the names in the header",
         DataChannelDescription::By::samples},
-    DataChannelDescription{"status", "",
-                           "0 miss, 1 hit, 2 inside, 3 exhausted if any cast gave up (integer)"},
+    DataChannelDescription{
+        "status", "",
+        "0 miss, 1 hit, 2 inside, 3 exhausted if any cast did not converge (integer)"},
 };
 
 /// The names between commas, or "all". Throws WrongUsage, with the names there are, for any other;

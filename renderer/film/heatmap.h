@@ -28,11 +28,11 @@ inline constexpr std::array heat_channels = {
     HeatChannelDescription{HeatChannel::supports, "supports", "support points per ray",
                            "support points of all casts"},
     HeatChannelDescription{HeatChannel::nodes, "nodes", "nodes visited per ray",
-                           "nodes of the hierarchy that were visited, of up to 8 boxes each"},
-    HeatChannelDescription{HeatChannel::path, "path", "last stage asked by any cast",
-                           "0 filter, 1 model, 2 gjk, 3 finer: the last that any cast needed"},
-    HeatChannelDescription{HeatChannel::status, "status", "answer of the solver",
-                           "hit, miss, inside, or exhausted if any cast gave up"},
+                           "visited BVH nodes (up to 8 boxes each)"},
+    HeatChannelDescription{HeatChannel::path, "path", "last stage needed by any cast",
+                           "last stage needed by any cast: 0 filter, 1 model, 2 gjk, 3 finer"},
+    HeatChannelDescription{HeatChannel::status, "status", "status of the cast",
+                           "hit, miss, inside, or exhausted if any cast did not converge"},
 };
 
 /// The statuses that the status channel distinguishes, in the order of its numbers.

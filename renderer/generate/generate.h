@@ -15,12 +15,12 @@ struct GeneratedKind {
 };
 
 inline constexpr GeneratedKind generated_kinds[] = {
-    {"rounded-boxes", "random rounded boxes, turned; they overlap here and there"},
+    {"rounded-boxes", "random rotated rounded boxes, some overlap"},
     {"spheres", "random spheres"},
-    {"ellipsoids", "a packing of ellipsoids, turned, none of which overlap"},
-    {"hulls", "a grid of convex hulls, each another one"},
+    {"ellipsoids", "a packing of rotated ellipsoids without overlap"},
+    {"hulls", "a grid of different convex hulls"},
     {"capsules", "random fibres"},
-    {"tumbling", "bodies of many shapes that fly apart, with keys for two seconds"},
+    {"tumbling", "bodies of many shapes that fly apart, with two seconds of keys"},
 };
 
 struct GenerateOptions {

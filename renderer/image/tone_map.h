@@ -18,9 +18,9 @@ struct ToneMapDescription {
 
 /// The list of all there are.
 inline constexpr std::array tone_maps = {
-    ToneMapDescription{ToneMap::srgb, "srgb", "as it is, cut off at white"},
+    ToneMapDescription{ToneMap::srgb, "srgb", "clipped at white"},
     ToneMapDescription{ToneMap::filmic, "filmic",
-                       "bright light is rolled off as by film (ACES, after Narkowicz 2015)"},
+                       "bright light rolls off as on film (ACES, after Narkowicz 2015)"},
     ToneMapDescription{ToneMap::agx, "agx",
                        "bright colours fade to white (AgX by Sobotka, after Wrensch 2023)"},
 };

@@ -163,7 +163,7 @@ Imported import_alone(const std::filesystem::path& file, const ImportOptions& op
   check_can_be_scene(file);
   if (!is_foreign(file)) {
     if (options.any())
-      throw WrongUsage("--geometry, --keyframe, --joint and the like are for robots' files (" +
+      throw WrongUsage("--geometry, --keyframe, --joint and related options need a robot file (" +
                        printable(file.string(), 100) + " is none)");
     Imported imported;
     imported.scene = load_scene(file, &imported.files, options.purpose);
@@ -189,7 +189,7 @@ Imported import_alone(const std::filesystem::path& file, const ImportOptions& op
   for (const Object& object : imported.scene.objects)
     if (!object.pose.linear.allFinite() || !object.pose.translation.allFinite()) {
       mistakes.add("the shape " + printable(object.name, 100) +
-                   " stands at no place that numbers can tell");
+                   " has a position beyond the range of numbers");
       break;
     }
   throw_if_any(mistakes);
@@ -199,7 +199,7 @@ Imported import_alone(const std::filesystem::path& file, const ImportOptions& op
 /// Adds what is in a scene, but for its camera and lights.
 void append_objects(Scene& to, Scene&& from) {
   if (instance_count(to) + instance_count(from) > most_instances)
-    throw BadInput("all files together: must have at most " + std::to_string(most_instances) +
+    throw BadInput("all files together must have at most " + std::to_string(most_instances) +
                    " objects");
   const auto shift = static_cast<std::uint32_t>(to.materials.size());
   for (Material& material : from.materials) {

@@ -90,7 +90,7 @@ class RowReader {
       const ModelJoint* joint = name == "time" ? nullptr : joint_of(name);
       const std::size_t width = joint ? width_of(joint->kind) : 1;
       if (name != "time" && !joint)
-        of_file_.add(column + "there is no joint of this name");
+        of_file_.add(column + "no joint has this name");
       else if (columns[name] > 1 && width == 1)
         of_file_.add(column + "duplicate (given " + std::to_string(columns[name]) + " times)");
       else if (columns[name] != width)
@@ -132,7 +132,7 @@ class RowReader {
           row.values[place_of_column[c]].second.push_back(value);
       }
       if (!rows_.empty() && !(row.time > rows_.back().time))
-        of_file_.add(where + "times must rise");
+        of_file_.add(where + "times must increase");
       rows_.push_back(std::move(row));
     }
   }
@@ -158,7 +158,7 @@ class RowReader {
       }
       const ModelJoint* joint = joint_of(name);
       if (!joint) {
-        of_file_.add(at, "there is no joint of this name");
+        of_file_.add(at, "no joint has this name");
         continue;
       }
       const std::size_t width = width_of(joint->kind);

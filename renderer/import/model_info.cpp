@@ -70,7 +70,7 @@ std::string meshes_as_text(const std::vector<ModelMesh>& meshes) {
     if (share <= convex_enough)
       std::snprintf(depth, sizeof depth, "convex");
     else
-      std::snprintf(depth, sizeof depth, "vertices up to %.3g under the hull (%.2g %% of its size)",
+      std::snprintf(depth, sizeof depth, "convex hull up to %.3g (%.2g %%) larger than the mesh",
                     facts.deepest, 100 * share);
     const std::size_t parts = mesh.parts.size();
     text += line("mesh", printable(mesh.file, 80) + ": " + std::to_string(mesh.vertices) +
@@ -109,8 +109,8 @@ std::string model_as_text(const Model& model) {
   const ModelCounts counts(model);
   text += line("links", std::to_string(model.links.size()));
   text += line("joints", counted(counts.joints));
-  text += line("shapes", counted(counts.geoms) + " (" + std::to_string(counts.seen) + " seen, " +
-                             std::to_string(counts.collide) + " collide)");
+  text += line("shapes", counted(counts.geoms) + " (" + std::to_string(counts.seen) + " visual, " +
+                             std::to_string(counts.collide) + " collision)");
   if (!model.keyframes.empty()) {
     std::string names;
     for (const std::string& name : keyframe_names(model))
@@ -119,7 +119,7 @@ std::string model_as_text(const Model& model) {
   }
   text += meshes_as_text(model.meshes);
   for (const PassedOver& one : model.passed_over)
-    text += line("passed over", std::to_string(one.count) + " " + one.what + ": " + one.why);
+    text += line("skipped", std::to_string(one.count) + " " + one.what + ": " + one.why);
   return text;
 }
 

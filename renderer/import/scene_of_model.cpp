@@ -113,8 +113,8 @@ void tell_beyond(Model& model, const JointsBeyond& beyond) {
       const auto found = beyond.find(&joint);
       if (found == beyond.end()) continue;
       char text[120];
-      std::snprintf(text, sizeof text, "it stands at %.6g, beyond %.6g to %.6g",
-                    found->second.value, (*joint.limits)[0], (*joint.limits)[1]);
+      std::snprintf(text, sizeof text, "at %.6g, outside %.6g to %.6g", found->second.value,
+                    (*joint.limits)[0], (*joint.limits)[1]);
       model.pass_over("limit of the joint \"" + printable(joint.name, 60) + "\"", text,
                       found->second.count);
     }
@@ -165,9 +165,10 @@ void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes) 
     }
     if (at != end || values.size() != width_of(joint->kind)) {
       mistakes.add("--joint: " + printable(name, 60) + " takes " +
-                   (width_of(joint->kind) == 1 ? "one finite number, radians if it is an angle"
-                                               : std::to_string(width_of(joint->kind)) +
-                                                     " numbers between commas, angles in radians") +
+                   (width_of(joint->kind) == 1
+                        ? "one finite number, radians if it is an angle"
+                        : std::to_string(width_of(joint->kind)) +
+                              " comma-separated numbers, angles in radians") +
                    " (got \"" + printable(text.substr(equals + 1), 60) + "\")");
       continue;
     }
@@ -235,7 +236,7 @@ Scene scene_of(Model& model, const ImportOptions& options, const std::vector<Joi
     scene.objects.push_back(std::move(object));
     geom_of_object.push_back(i);
   }
-  if (left_out > 0) model.pass_over("shapes", "--geometry asks for others", left_out);
+  if (left_out > 0) model.pass_over("shapes", "not selected; use --geometry all", left_out);
   if (scene.materials.empty()) materials.of({0.7, 0.7, 0.7, 1});
 
   const JointsByName joints = joints_by_name(model);

@@ -192,7 +192,7 @@ LoopbackServer::LoopbackServer(int port) : token_(random_token()) {
     if (socket_ >= 0) ::close(socket_);
     throw WrongUsage("--port: " + std::string(what) + ": " + why);
   };
-  if (socket_ < 0) fail("there is no socket to be had");
+  if (socket_ < 0) fail("no socket available");
   const int on = 1;
   ::setsockopt(socket_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   sockaddr_in address{};
@@ -201,8 +201,8 @@ LoopbackServer::LoopbackServer(int port) : token_(random_token()) {
   address.sin_port = htons(static_cast<std::uint16_t>(port));
   auto* const any = reinterpret_cast<sockaddr*>(&address);
   socklen_t size = sizeof address;
-  if (::bind(socket_, any, size) < 0) fail("cannot be listened at");
-  if (::listen(socket_, SOMAXCONN) < 0) fail("cannot be listened at");
+  if (::bind(socket_, any, size) < 0) fail("cannot listen there");
+  if (::listen(socket_, SOMAXCONN) < 0) fail("cannot listen there");
   ::getsockname(socket_, any, &size);
   port_ = ntohs(address.sin_port);
 }

@@ -26,7 +26,7 @@ constexpr int most_pixels = 4'000'000;
 /// Reply to an abandoned request: an unfinished picture must not look like a finished one to a
 /// client that only ceased to send.
 WebReply left() {
-  return {503, "text/plain; charset=utf-8", "not finished: nobody waits for it any more\n"};
+  return {503, "text/plain; charset=utf-8", "not finished: the client has closed the connection\n"};
 }
 
 double number_of(const std::string& text, const std::string& key) {

@@ -138,7 +138,7 @@ BadInput unusable(const std::string& file, const std::exception& error) {
 }
 
 BadInput too_large(const std::string& file) {
-  return BadInput(file + ": there is not enough memory to read it");
+  return BadInput(file + ": not enough memory to read it");
 }
 
 /// First bytes of an OpenEXR file.

@@ -40,7 +40,7 @@ Bytes encode_pfm(const Image& image) {
   return bytes;
 }
 
-/// Just the colours. Renders have more channels: renderer/part_file.h.
+/// Just the colours. Renders have more channels: renderer/share/part_file.h.
 Bytes encode_plain_exr(const Image& image) {
   const PixelRect window{0, 0, image.width, image.height};
   ExrImage exr{window, window, {}, {}};

@@ -17,7 +17,7 @@ constexpr const char* several_machines = "Several machines";
 
 void RenderArguments::choose_output(const Ranks& ranks) {
   if (image.outputs.empty() && (is_share() || frames || ranks.count() > 1))
-    throw WrongUsage("--output: is needed with --tile, --sample-share, --frames and MPI");
+    throw WrongUsage("--output: required with --tile, --sample-share, --frames and MPI");
   image.choose_output(picture_suffix);
   const bool has_checkpoint = checkpoint_seconds > 0 || resume;
   if (!frames && ranks.count() == 1 && has_checkpoint)
@@ -109,7 +109,7 @@ void RenderArguments::add_to(const Verb& verb) {
       .writes_file();
   verb.add_flag("--stats", stats, "Print rays, speed, work and memory; --stats=json")
       .group(research_group);
-  verb.add_flag("--certify", certify, "Prove the answer to every ray; exit 1 if a proof fails")
+  verb.add_flag("--certify", certify, "Prove every ray's result; exit with 1 if a proof fails")
       .group(research_group);
 }
 

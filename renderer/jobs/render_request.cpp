@@ -25,7 +25,7 @@ void check_shares(const RenderOptions& options) {
   const int blocks = SampleBlocks{options.samples}.count();
   if (share.count > blocks)
     throw WrongUsage("--sample-share: " + std::to_string(options.samples) +
-                     " samples a pixel can be shared by at most " + std::to_string(blocks) +
+                     " samples per pixel can be shared by at most " + std::to_string(blocks) +
                      " (got " + share.text() + ")");
 }
 
@@ -77,7 +77,7 @@ RenderJob job_of(const RenderArguments& options, const Ranks& ranks) {
   if (options.denoise && (options.is_share() || ranks.count() > 1))
     throw WrongUsage("--denoise: needs a whole picture: not with --tile, --sample-share or MPI");
   if (options.denoise && options.image.samples < 2)
-    throw WrongUsage("--denoise: needs at least 2 samples a pixel, to know how much they differ");
+    throw WrongUsage("--denoise: needs at least 2 samples per pixel");
   if (!options.tev.empty() && (options.is_share() || ranks.count() > 1))
     throw WrongUsage("--tev: shows a whole picture: not with --tile, --sample-share or MPI");
   if (ranks.count() > 1 && options.is_share())

@@ -208,7 +208,7 @@ void remove_parts(const std::string& output, int tiles) {
   if (fs::remove(folder, ignored); !ignored) return;
   if (!error) error = ignored;
   const std::string why = error == std::errc::directory_not_empty
-                              ? ", for there is more in it than this picture's tiles"
+                              ? ": it contains more than this picture's tiles"
                               : ": " + error.message();
   std::cerr << "note: " + printable(folder) + " stays" + printable(why) + "\n";
 }

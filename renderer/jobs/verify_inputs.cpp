@@ -75,7 +75,7 @@ AllowedPairs allowed_pairs(const AllowedLinks& links, const Model& model,
   read_srdf(links.srdf, model, allowed, of_srdf);
   for (const std::string& message : of_srdf.messages())
     if (message.find("there is no link") != message.npos ||
-        message.find("and more mistakes") != message.npos)
+        message.find("further errors") != message.npos)
       notes.push_back(message);
     else
       serious.add(message);

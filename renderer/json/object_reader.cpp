@@ -49,7 +49,7 @@ constexpr KeyElsewhere keys_elsewhere[] = {
 }  // namespace
 
 std::string suggestion(std::string_view written, const std::vector<std::string>& names) {
-  if (names.empty()) return "none is known here";
+  if (names.empty()) return "none is defined";
   if (const auto closest = closest_word(written, names))
     return "did you mean \"" + *closest + "\"?";
   std::string text = "known here:";

@@ -68,7 +68,7 @@ Scene seen(const HeldScene& held, const minkray_picture_options& options) {
   Mistakes mistakes("options.view");
   const std::optional<Scene> read = parse_scene(json.dump(), {}, mistakes);
   if (read && (!read->objects.empty() || !read->materials.empty()))
-    mistakes.add("must have nothing but camera, lights and background");
+    mistakes.add("must contain only camera, lights and background");
   throw_if_any(mistakes);
   if (has_camera) {
     scene.camera = read->camera;
@@ -176,7 +176,7 @@ void render(const HeldScene& held, const minkray_picture_options& given,
                            std::ranges::find(channels, "", &Channel::name) != channels.end();
   options.light_channels = given.denoise != 0 || are_light_channels_wanted(names);
   if (given.denoise != 0 && options.samples < 2)
-    wrong_use("options.samples: must be at least 2 to denoise, to know how much they differ");
+    wrong_use("options.samples: must be at least 2 to denoise");
 
   std::atomic<bool> stopped = false;
   const RenderWatch watch{[&](double done, std::uint64_t) {

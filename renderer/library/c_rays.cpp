@@ -181,7 +181,7 @@ int minkray_scene_exit(minkray_scene scene, uint32_t object, const minkray_ray* 
                 std::to_string(object) + ")");
     if (object < held->size()) held->check_object(object);
     if (instances.is_half_space(object))
-      wrong_use("object: must not be a half-space, which rays never leave");
+      wrong_use("object: must not be a half-space, since rays never leave it");
     if (instances.is_mesh(object)) wrong_use("object: must be convex (got a mesh)");
     cast_at_one(instances.at(object), object, RaySource(rays, count), hits, options,
                 [](const PreparedShape<double>& shape, const Ray<double>& ray) {

@@ -54,7 +54,7 @@ std::uint32_t checked_object(const HeldScene& scene, std::uint32_t number,
     wrong_use(argument + ": must be less than " + std::to_string(count) + " (got " +
               std::to_string(number) + ")");
   if (scene.is_removed(number))
-    wrong_use(argument + ": must not be one that was removed (got " + std::to_string(number) + ")");
+    wrong_use(argument + ": must not be removed (got " + std::to_string(number) + ")");
   return number;
 }
 

@@ -16,7 +16,7 @@ HeldScene& scene_of(minkray_scene scene) {
   HeldScene* held = held_scenes().find(scene.id);
   if (!held)
     wrong_use(std::string("scene: must be a scene (got ") +
-              (scene.id == 0 ? "none" : "one that was released, or none") + ")");
+              (scene.id == 0 ? "none" : "a released one, or none") + ")");
   return *held;
 }
 

@@ -17,7 +17,7 @@ namespace minkray {
 
 void wrong_shape(minkray_shape shape, const char* argument) {
   wrong_use(std::string(argument) + ": must be a shape (got " +
-            (shape.id == 0 ? "none" : "one that was released, or none") + ")");
+            (shape.id == 0 ? "none" : "a released one, or none") + ")");
 }
 
 void HeldShape::refuse_mesh() {
@@ -141,7 +141,7 @@ int minkray_shape_height_field(const double* heights, size_t rows, size_t column
     require(shape, "shape");
     require_room(rows, sizeof *heights, "rows");
     if (columns > 0 && rows > SIZE_MAX / sizeof *heights / columns)
-      wrong_use("rows, columns: are too many");
+      wrong_use("rows, columns: too many");
     HeightField field{{heights, rows * columns}, rows, columns, size_x, size_y, {}};
     if (bottom) field.bottom = *bottom;
     try {
@@ -178,9 +178,8 @@ int minkray_shape_release(minkray_shape shape) {
 int minkray_shape_write(minkray_shape shape, char* text, size_t size, size_t* needed) {
   return call("minkray_shape_write", [&] {
     const HeldShape& held = shape_of(shape, "shape");
-    if (held.mesh()) wrong_use("shape: cannot be written, since it is a mesh");
-    if (!held.customs().empty())
-      wrong_use("shape: cannot be written, since a program gives its support function");
+    if (held.mesh()) wrong_use("shape: meshes cannot be written");
+    if (!held.customs().empty()) wrong_use("shape: custom support functions cannot be written");
     const std::string json = write_shape(*held.shape()).dump();
     if (size > 0) require(text, "text");
     if (needed) *needed = json.size() + 1;

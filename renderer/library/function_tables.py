@@ -131,7 +131,7 @@ def python_table(folder):
     for node in tree.body:
         if isinstance(node, ast.FunctionDef):
             table.add(node.name, docs[node.name])
-    table.part("answers and other classes")
+    table.part("results and other classes")
     for node in tree.body:
         if isinstance(node, ast.ClassDef) and node.name not in ("Scene", "Error"):
             table.add(node.name, docs.get(node.name, ""))

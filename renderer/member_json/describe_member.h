@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a described parameter looks like in a file, by the member's type: for people, and for the
-// JSON Schema. The counterpart of read_member.h.
+// Describes how a parameter is written in a file, by the member's type: for people, and for the
+// JSON Schema. Counterpart of read_member.h.
 #pragma once
 
 #include <string>

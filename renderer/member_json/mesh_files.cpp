@@ -11,7 +11,7 @@
 namespace minkray {
 namespace {
 
-/// Meshes that are not part of the sources are fetched by a script of this name beside the scene.
+/// Meshes outside the repository are fetched by a script of this name in the scene's folder.
 constexpr const char* fetch_script = "fetch-meshes";
 
 }  // namespace

@@ -69,7 +69,7 @@ class MeshFiles {
   std::optional<PointCloud<double>> read(const std::string& name, const JsonPath& path,
                                          Mistakes& mistakes);
 
-  /// The hulls of a mesh file's parts: all vertices are one part if it does not tell parts apart.
+  /// Hulls of a mesh file's parts. A file without parts gives one hull of all vertices.
   std::optional<std::vector<PointCloud<double>>> read_parts(const std::string& name,
                                                             MeshSplit split, const JsonPath& path,
                                                             Mistakes& mistakes);

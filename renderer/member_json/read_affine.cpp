@@ -11,8 +11,8 @@ namespace {
 /// three of them add up in each pivot.
 constexpr double singular_pivot = 8 * std::numeric_limits<double>::epsilon();
 
-/// Whether the map has an inverse that doubles can hold. Rows and columns are scaled first, so that
-/// a map that makes one axis a million times shorter is not taken for singular.
+/// True if the map has an inverse in double. Rows and columns are scaled first, so that a map that
+/// makes one axis a million times shorter does not count as singular.
 bool is_invertible(const Mat3<double>& matrix) {
   Mat3<double> scaled = matrix;
   for (int pass = 0; pass < 2; ++pass) {

@@ -47,7 +47,7 @@ bool read_member(ObjectReader&, const Parameter&, std::string& member, MeshFiles
 bool read_member(ObjectReader&, const Parameter&, Paint& member, MeshFiles&);
 bool read_member(ObjectReader&, const Parameter&, PaintIfAny& member, MeshFiles&);
 bool read_member(ObjectReader&, const Parameter&, PictureFile& member, MeshFiles&);
-/// The names alone: who knows all materials finds their indices.
+/// Reads the names only. Their indices are found when all materials are read.
 bool read_member(ObjectReader&, const Parameter&, TwoMaterials& member, MeshFiles&);
 /// One of the names; `what` they are names of.
 bool read_name(ObjectReader&, const Parameter&, std::string& member,
@@ -68,7 +68,7 @@ std::vector<PoseKey> read_keys(const Json& json, const JsonPath& path, Mistakes&
 /// The time of a key, which must be later than the one before, if there is one.
 double read_key_time(ObjectReader& key, std::optional<double> before);
 
-/// Which parameters may be left out.
+/// Parameters that may be omitted.
 enum class Leave { optional_ones, any };
 
 /// All parameters of a described struct: a shape, a light, a material, the camera.

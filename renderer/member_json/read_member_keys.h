@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// Whether a parameter has a value that another can follow, as a texture has not.
+/// True if the parameter's value can change over time. A texture cannot.
 template <class M>
 bool can_follow(const M&) {
   return true;

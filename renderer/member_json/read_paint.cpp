@@ -27,7 +27,7 @@ std::optional<Paint> read_paint(const Json& json, const JsonPath& path, Mistakes
 
 Json write_paint(const Paint& paint) {
   if (!paint.texture()) return to_json(paint.colour());
-  // Pictures within a robot's file have no name: their mean stands for them.
+  // Pictures inside a robot's file have no name. Their mean colour is used.
   if (const auto* image = std::get_if<ImageTexture>(paint.texture());
       image && image->picture.file.empty())
     return to_json(paint.colour());

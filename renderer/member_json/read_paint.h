@@ -15,7 +15,7 @@ namespace minkray {
 std::optional<Paint> read_paint(const Json& json, const JsonPath& path, Mistakes& mistakes,
                                 Range range, MeshFiles& files);
 
-/// What read_paint makes the same of.
+/// Inverse of read_paint.
 Json write_paint(const Paint& paint);
 
 }  // namespace minkray

@@ -133,7 +133,7 @@ std::optional<std::array<double, 4>> read_rotation(const Json& json, const JsonP
     if (!object.finish() || !point) return std::nullopt;
     const Vec3<double> direction = *point - place;
     if (unit(direction).isZero(0)) {
-      mistakes.add(object.path("look_at"), "must not be the place of the thing itself (" +
+      mistakes.add(object.path("look_at"), "must not be the object's own position (" +
                                                printable(target->dump(), 100) + ")");
       return std::nullopt;
     }

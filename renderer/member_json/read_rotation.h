@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All spellings of a rotation in scene files: a quaternion, an axis and an angle, angles about x, y
-// and z, or a point to look at.
+// Reads each form of a rotation in scene files: a quaternion, an axis and an angle, angles about x,
+// y and z, or a target to face.
 #pragma once
 
 #include <array>

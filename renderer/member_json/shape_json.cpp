@@ -25,7 +25,7 @@ bool read_operands_from_list(ObjectReader& object, const Json& json, S& shape, M
   return true;
 }
 
-/// Whether the parameters fit each other.
+/// True if the parameters fit each other.
 bool fits(ObjectReader& object, const std::optional<Misfit>& misfit) {
   if (!misfit) return true;
   const Json* const json = object.find(misfit->parameter);

@@ -11,18 +11,17 @@
 
 namespace minkray {
 
-/// One shape, nested as deeply as it may be. Nothing, and mistakes, if anything in it is wrong.
-/// `path` is where the JSON stands in its file.
+/// Reads one shape, nested to any depth. Returns nothing and adds mistakes if any part is invalid.
+/// `path` is its location in the file.
 std::optional<Shape<double>> read_shape(const Json& json, const JsonPath& path, Mistakes& mistakes,
                                         MeshFiles& meshes);
 
-/// A list of shapes: at least so many.
+/// Reads a list of shapes with a least length.
 std::optional<ShapeList<double>> read_shapes(const Json& json, const JsonPath& path,
                                              Mistakes& mistakes, MeshFiles& meshes,
                                              std::size_t least);
 
-/// What read_shape makes the same shape of. Points that came from a mesh file are written as that
-/// file's name.
+/// Inverse of read_shape. Points from a mesh file are written as that file's name.
 Json write_shape(const Shape<double>& shape);
 
 }  // namespace minkray

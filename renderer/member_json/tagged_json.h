@@ -25,7 +25,7 @@ void for_each_alternative(std::type_identity<std::variant<S...>>, Visit&& visit)
   (visit_one.template operator()<S>(), ...);
 }
 
-/// The names of a variant's alternatives: what "type" may say.
+/// Names of a variant's alternatives: the values of "type".
 template <class Variant>
 std::vector<std::string> type_names() {
   std::vector<std::string> names;
@@ -35,7 +35,7 @@ std::vector<std::string> type_names() {
   return names;
 }
 
-/// How many operands of its own name a shape has, such as a and b.
+/// Number of operands of a shape that have their own key, such as a and b.
 template <class S>
 constexpr std::size_t operand_count() {
   std::size_t count = 0;
@@ -45,16 +45,16 @@ constexpr std::size_t operand_count() {
   return count;
 }
 
-/// Whether a shape is nothing but several operands with names of their own, so that a list "shapes"
-/// may give them in their order.
+/// True if a shape consists of several operands with their own keys only, so that a list "shapes"
+/// may give them in order.
 template <class S>
 constexpr bool takes_list_of_operands() {
   return operand_count<S>() > 1 && operand_count<S>() == std::tuple_size_v<decltype(S::fields())>;
 }
 
-/// Makes an S and lets `read(S&)` fill it; nothing if that says false. `read` knows all parameters
-/// of S that an object of this "type" may have. `what` names what is read: "a shape". An unknown
-/// type is the only mistake told about the object: its keys cannot be judged.
+/// Makes an S and lets `read(S&)` fill it; returns nothing if `read` returns false. `read` handles
+/// all parameters of S. `what` is the noun for messages: "a shape". An unknown type is the object's
+/// only mistake, since its keys cannot be checked.
 template <class Variant, class Read>
 std::optional<Variant> read_tagged(ObjectReader& object, std::string_view what, Read&& read) {
   std::vector<std::string> names = type_names<Variant>();
@@ -68,7 +68,7 @@ std::optional<Variant> read_tagged(ObjectReader& object, std::string_view what, 
   bool known = false;
   for_each_alternative(std::type_identity<Variant>(), [&]<class S>() {
     if (known || S::name != *name) return;
-    // Two may share a name, if one of them is told by a key that the other has not.
+    // Two may share a name if one needs a key that the other does not have.
     if constexpr (requires { S::told_by; })
       if (!object.find(S::told_by)) return;
     known = true;

@@ -13,8 +13,8 @@ namespace minkray {
 
 struct WordElsewhere {
   std::string_view word;
-  std::string_view name;          ///< here; it tells shapes, materials and lights apart
-  std::string_view instead = "";  ///< what to write, where the name alone does not say it
+  std::string_view name;          ///< in Minkray; distinguishes shapes, materials and lights
+  std::string_view instead = "";  ///< text to write, if the name alone is not enough
 };
 
 inline constexpr WordElsewhere words_elsewhere[] = {
@@ -65,7 +65,7 @@ inline constexpr WordElsewhere words_elsewhere[] = {
     {"hdri", "environment", "use \"environment\" with the picture as its \"file\""},
 };
 
-/// What is likely meant by a name that is not among those there are.
+/// Returns the likely meaning of an unknown name.
 inline std::string name_meant(const std::string& written, const std::vector<std::string>& names) {
   for (const WordElsewhere& one : words_elsewhere)
     if (one.word == written && std::ranges::find(names, one.name) != names.end())

@@ -20,14 +20,13 @@ struct IntegratorDescription {
 /// The list of all there are.
 inline constexpr std::array integrators = {
     IntegratorDescription{IntegratorKind::automatic, "auto",
-                          "path where the scene has what only that shows, else ambient"},
-    IntegratorDescription{IntegratorKind::path, "path",
-                          "all light, by paths of any length; unbiased"},
+                          "path if the scene has lights or materials that need it, else ambient"},
+    IntegratorDescription{IntegratorKind::path, "path", "all light by path tracing; unbiased"},
     IntegratorDescription{IntegratorKind::direct, "direct",
-                          "light that comes straight from lights and shining bodies"},
+                          "direct light from lights and emissive objects"},
     IntegratorDescription{IntegratorKind::ambient, "ambient",
-                          "direct light, --bounces, and then ambient occlusion"},
-    IntegratorDescription{IntegratorKind::normals, "normals", "the normals' directions as colours"},
+                          "direct light, diffuse --bounces, then ambient occlusion"},
+    IntegratorDescription{IntegratorKind::normals, "normals", "surface normals as colours"},
 };
 
 /// Kinds of light to follow, and how far.

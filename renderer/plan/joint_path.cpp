@@ -49,7 +49,7 @@ Trajectory read_npy_rows(const std::string& file, const Model& model,
                                        [](double value) { return std::isfinite(value); });
     if (!is_finite) of_file.add("row " + std::to_string(i + 1) + ": must be finite numbers");
     if (i > 0 && !(row.time > trajectory.rows.back().time))
-      of_file.add("row " + std::to_string(i + 1) + ": times must rise");
+      of_file.add("row " + std::to_string(i + 1) + ": times must increase");
     trajectory.rows.push_back(std::move(row));
   }
   for (const std::string& message : of_file.messages()) mistakes.add(message);

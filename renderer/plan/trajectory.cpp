@@ -262,7 +262,7 @@ class TrajectoryReader {
     }
     for (std::size_t i = 1; i < rows.size(); ++i)
       if (!(rows[i].time >= rows[i - 1].time))
-        return mistakes_.add(points_, "times must rise: point " + std::to_string(i) +
+        return mistakes_.add(points_, "times must increase: point " + std::to_string(i) +
                                           " is earlier than the one before it");
   }
 

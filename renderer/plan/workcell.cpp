@@ -114,7 +114,7 @@ void add_to_model(const PlanningScene& scene, Model& model, Mistakes& mistakes) 
   for (const PlannedObject& object : scene.objects) {
     const auto frame = frame_of(object.frame, scene, posed, links);
     if (!frame) {
-      mistakes.add("object \"" + printable(object.id, 60) + "\": frame_id: there is no frame \"" +
+      mistakes.add("object \"" + printable(object.id, 60) + "\": frame_id: no frame is named \"" +
                    printable(object.frame, 60) + "\" (" + suggestion(object.frame, names) + ")");
       continue;
     }
@@ -146,7 +146,7 @@ void add_to_model(const PlanningScene& scene, Model& model, Mistakes& mistakes) 
     const auto frame = frame_of(object.frame, scene, posed, links);
     if (!frame) {
       mistakes.add("attached object \"" + printable(object.id, 60) +
-                   "\": frame_id: there is no frame \"" + printable(object.frame, 60) + "\"");
+                   "\": frame_id: no frame is named \"" + printable(object.frame, 60) + "\"");
       continue;
     }
     ModelLink link;

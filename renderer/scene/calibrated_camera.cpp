@@ -10,8 +10,8 @@ namespace {
 
 using Vector2 = Eigen::Vector2d;
 
-/// How near a distorted place must come to the wanted one, in units of the plane z = 1: a
-/// thousandth of a thousandth of a pixel at any focal length below a million pixels.
+/// Largest distance of a distorted point from the wanted one, in units of the plane z = 1: 1e-6
+/// pixels at any focal length below a million pixels.
 constexpr double near_enough = 1e-12;
 constexpr int most_steps = 100;
 

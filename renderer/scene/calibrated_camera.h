@@ -39,7 +39,7 @@ class CalibratedCamera {
   /// The direction of a pixel, or of the last one before it on the way from the middle.
   Vec3<double> direction_or_last(double u, double v) const;
 
-  /// How far from the axis the inverse reaches: the tangent, of fisheyes the angle.
+  /// Largest distance from the axis with an inverse: a tangent; for fisheyes the angle.
   double reach() const { return reach_; }
 
  private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A camera, as scene files say it.
+// The camera of a scene file.
 #pragma once
 
 #include <array>
@@ -47,38 +47,33 @@ struct CameraDescription {
   /// Not a key: how far away it is sharp, along the camera's axis; 0: at look_at.
   double focus = 0;
 
-  static constexpr std::string_view doc = "Where the picture is taken from.";
+  static constexpr std::string_view doc = "The camera of the picture.";
   static constexpr auto fields() {
     using C = CameraDescription;
     return std::tuple{
-        Field{"position", &C::position, Unit::length, Range::any, "where the camera is"},
-        Field{"look_at", &C::look_at, Unit::length, Range::any, "what it points at"},
+        Field{"position", &C::position, Unit::length, Range::any, "the camera's position"},
+        Field{"look_at", &C::look_at, Unit::length, Range::any, "the point that it looks at"},
         Field{"up", &C::up, Unit::none, Range::any, "the direction that is up in the picture",
               true},
-        Field{
-            "fov_y_degrees", &C::fov_y_degrees, Unit::degrees, Range::positive,
-            "the angle of view from the picture's lower to its upper edge: below 180, of fisheyes "
-            "up to 360",
-            true},
+        Field{"fov_y_degrees", &C::fov_y_degrees, Unit::degrees, Range::positive,
+              "the vertical angle of view: below 180, for fisheyes up to 360", true},
         Field{"resolution", &C::resolution, Unit::none, Range::any,
               "the picture's width and height in pixels", true},
         Field{"shutter", &C::shutter, Unit::none, Range::not_negative,
-              "how many seconds the shutter is open: what moves meanwhile is blurred", true},
-        Field{
-            "type", &C::type, Unit::none, Range::any,
-            "perspective if left out; orthographic: as large as perspective shows look_at; "
-            "fisheye: angles as distances; equisolid: solid angles as areas; panorama: all around",
-            true},
+              "the exposure time in seconds; moving objects are blurred", true},
+        Field{"type", &C::type, Unit::none, Range::any,
+              "perspective by default; orthographic: with perspective's scale at look_at; fisheye: "
+              "equidistant; equisolid: equal solid angles; panorama: the whole sphere",
+              true},
         Field{"aperture", &C::aperture, Unit::length, Range::not_negative,
-              "the lens's diameter: what is not in focus is blurred", true},
+              "the lens's diameter; objects out of focus are blurred", true},
         Field{"focus_distance", &C::focus_distance, Unit::length, Range::positive,
-              "how far away it is sharp, along the camera's axis; at look_at if left out", true},
+              "the distance in focus, along the camera's axis; by default that of look_at", true},
         Field{"focus_on", &C::focus_on, Unit::none, Range::any,
-              "or the name of the object that is sharp", true},
+              "or the name of the object in focus", true},
         Field{"blades", &C::blades, Unit::none, Range::not_negative,
-              "of the aperture, a whole number of at least 3: what is not in focus shows a polygon "
-              "of "
-              "so many corners; 0 for a round one",
+              "the number of aperture blades, at least 3: highlights out of focus are polygons "
+              "with this many corners; 0: round",
               true}};
   }
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far away a scene's camera is sharp, which may be said by an object's name.
+// Focus distance of a scene's camera, which may be given by an object's name.
 #pragma once
 
 #include "renderer/json/mistakes.h"

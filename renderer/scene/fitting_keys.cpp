@@ -9,7 +9,7 @@
 namespace minkray {
 namespace {
 
-/// More cannot be told from a round aperture.
+/// A round aperture looks the same as one with more blades.
 constexpr int most_blades = 100;
 
 /// A view direction and "up" are taken for parallel if the sine of their angle is below this: the
@@ -82,7 +82,7 @@ void find_sun(SunSkyLight& day, const Json& json, const JsonPath& path, Mistakes
   if (!(day.sun.z() > 0))
     mistakes.add(path / "time", "must be by day: the sun is below the horizon (" +
                                     found(*json.find("time")) + ")");
-  // It is written as the direction that it is.
+  // Written as a direction, not as time and location.
   day.time.clear();
   day.latitude_degrees = day.longitude_degrees = std::nullopt;
 }

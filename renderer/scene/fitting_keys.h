@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Keys of a scene file that must fit other keys beside them, each of which is right by itself. Each
-// function adds mistakes about the object at `path`, whose JSON is given where it is quoted.
+// Checks keys of an object that are valid alone but must fit its other keys. Each function adds
+// mistakes about the object at `path`; messages quote its JSON where it is given.
 #pragma once
 
 #include "renderer/json/json.h"

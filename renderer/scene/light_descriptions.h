@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lights, as scene files say them: one struct a light, the list of all at the end.
+// Lights of scene files: one struct per light; the list of all is at the end.
 #pragma once
 
 #include <optional>
@@ -25,10 +25,10 @@ struct DirectionalLight {
   static constexpr std::string_view doc = "Parallel light, as from the sun.";
   static constexpr auto fields() {
     using L = DirectionalLight;
-    return std::tuple{
-        Field{"direction", &L::direction, Unit::none, Range::any, "where the light travels to"},
-        Field{"color", &L::colour, Unit::none, Range::brightness,
-              "the irradiance (linear RGB) on a surface that faces it", true}};
+    return std::tuple{Field{"direction", &L::direction, Unit::none, Range::any,
+                            "the direction in which the light travels"},
+                      Field{"color", &L::colour, Unit::none, Range::brightness,
+                            "the irradiance (linear RGB) on a surface that faces it", true}};
   }
 };
 
@@ -45,7 +45,7 @@ struct PointLight {
   static constexpr auto fields() {
     using L = PointLight;
     return std::tuple{
-        Field{"position", &L::position, Unit::length, Range::any, "where the light is"},
+        Field{"position", &L::position, Unit::length, Range::any, "the light's position"},
         Field{"color", &L::colour, Unit::none, Range::brightness,
               "its radiant intensity (linear RGB): the irradiance at distance 1", true}};
   }
@@ -62,7 +62,7 @@ struct EnvironmentLight {
   }
 
   static constexpr std::string_view name = "environment";
-  static constexpr std::string_view doc = "Light from all around, as from the sky.";
+  static constexpr std::string_view doc = "Environment light, as from the sky.";
   static constexpr auto fields() {
     using L = EnvironmentLight;
     return std::tuple{Field{"zenith", &L::zenith, Unit::none, Range::brightness,
@@ -72,8 +72,8 @@ struct EnvironmentLight {
   }
 };
 
-/// Light from all around, by a picture of the whole sphere. It shares its name with the plain one:
-/// a file tells them apart.
+/// Environment light given by a picture of the whole sphere. Shares its "type" with the plain
+/// EnvironmentLight; the key of the file distinguishes them.
 struct ImageSkyLight {
   PictureFile picture;
   double rotate_degrees = 0;
@@ -83,19 +83,19 @@ struct ImageSkyLight {
 
   static constexpr std::string_view name = "environment";
   static constexpr std::string_view told_by = "file";
-  static constexpr std::string_view doc = "Light from all around, by a picture.";
+  static constexpr std::string_view doc = "Environment light from a picture.";
   static constexpr auto fields() {
     using L = ImageSkyLight;
     return std::tuple{Field{"file", &L::picture, Unit::none, Range::any,
-                            "a picture of the whole sphere: longitude by latitude, its middle "
-                            "towards +y, +x on its right"},
+                            "a picture of the whole sphere (longitude by latitude): its middle "
+                            "towards +y, +x to the right"},
                       Field{"rotate_degrees", &L::rotate_degrees, Unit::degrees, Range::any,
-                            "turned so far against the clock, seen from above", true}};
+                            "counter-clockwise rotation seen from above", true}};
   }
 };
 
-/// The sky of a clear day and the sun in it. Where the sun stands is told by its direction, or by a
-/// time and a place, of which whoever reads the file makes the direction.
+/// Clear sky with the sun. The sun is given by its direction, or by time and location, which the
+/// reader converts to a direction.
 struct SunSkyLight {
   Vec3<double> sun = {0, -1, 1};
   std::string time = {};
@@ -107,28 +107,29 @@ struct SunSkyLight {
   void scale(double intensity) { strength *= intensity; }
 
   static constexpr std::string_view name = "sun_sky";
-  static constexpr std::string_view doc = "A clear day's sky and its sun (Preetham et al. 1999).";
+  static constexpr std::string_view doc = "Clear sky with the sun (Preetham et al. 1999).";
   static constexpr auto fields() {
     using L = SunSkyLight;
     return std::tuple{
         Field{"sun", &L::sun, Unit::none, Range::any,
               "the direction towards the sun, above the horizon", true},
         Field{"time", &L::time, Unit::none, Range::any,
-              "instead of the direction: when it is, such as 2026-06-21T09:30+02:00 or "
+              "instead of the direction: date and time, such as 2026-06-21T09:30+02:00 or "
               "2026-06-21T07:30Z; +x is east and +y is north",
               true},
         Field{"latitude_degrees", &L::latitude_degrees, Unit::degrees, Range::any,
-              "with the time: where it is, positive in the north", true},
+              "with the time: the latitude, positive in the north", true},
         Field{"longitude_degrees", &L::longitude_degrees, Unit::degrees, Range::any,
-              "with the time: where it is, positive in the east", true},
+              "with the time: the longitude, positive in the east", true},
         Field{"turbidity", &L::turbidity, Unit::none, Range::at_least_one,
-              "how hazy it is: 2 very clear, 10 misty", true},
+              "the haze: 2 very clear, 10 misty", true},
         Field{"ground", &L::ground, Unit::none, Range::brightness,
               "the radiance (linear RGB) from below the horizon", true}};
   }
 };
 
-/// What "type" may say of a light; where two share a name that which is told by a key comes first.
+/// Values of "type" for lights. If two share a name, the one that needs a key (`told_by`) comes
+/// first.
 using Light =
     std::variant<DirectionalLight, PointLight, ImageSkyLight, EnvironmentLight, SunSkyLight>;
 

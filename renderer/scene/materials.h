@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What things are made of, as scene files say it: one struct a material, the list of all at the
-// end.
+// Materials of scene files: one struct per material; the list of all is at the end.
 #pragma once
 
 #include <array>
@@ -27,7 +26,7 @@ struct LambertMaterial {
   static constexpr std::string_view doc = "Matt: diffuse reflection.";
   static constexpr auto fields() {
     return std::tuple{Field{"color", &LambertMaterial::colour, Unit::none, Range::zero_to_one,
-                            "the part of the light it reflects (linear RGB)"}};
+                            "the fraction of light that is reflected (linear RGB)"}};
   }
 };
 
@@ -38,16 +37,15 @@ struct GlossyMaterial {
   double index_of_refraction = 1.5;
 
   static constexpr std::string_view name = "glossy";
-  static constexpr std::string_view doc = "A diffuse base under a coat that mirrors.";
+  static constexpr std::string_view doc = "A diffuse base under a reflecting coat.";
   static constexpr auto fields() {
     using M = GlossyMaterial;
-    return std::tuple{
-        Field{"color", &M::colour, Unit::none, Range::zero_to_one,
-              "the part of the light that the base reflects (linear RGB)"},
-        Field{"roughness", &M::roughness, Unit::none, Range::zero_to_one, "0 for a perfect mirror",
-              true},
-        Field{"index_of_refraction", &M::index_of_refraction, Unit::none, Range::at_least_one,
-              "the coat's: the larger, the more it mirrors", true}};
+    return std::tuple{Field{"color", &M::colour, Unit::none, Range::zero_to_one,
+                            "the fraction of light that the base reflects (linear RGB)"},
+                      Field{"roughness", &M::roughness, Unit::none, Range::zero_to_one,
+                            "0 for a perfect mirror", true},
+                      Field{"index_of_refraction", &M::index_of_refraction, Unit::none,
+                            Range::at_least_one, "the coat's; larger values reflect more", true}};
   }
 };
 
@@ -56,10 +54,11 @@ struct EmissiveMaterial {
   Colour radiance = Colour::Ones();
 
   static constexpr std::string_view name = "emissive";
-  static constexpr std::string_view doc = "Shines, the same to all sides: any shape as a light.";
+  static constexpr std::string_view doc =
+      "Emits light equally in all directions: any shape as a light.";
   static constexpr auto fields() {
     return std::tuple{Field{"radiance", &EmissiveMaterial::radiance, Unit::none, Range::brightness,
-                            "how bright it is seen (linear RGB)"}};
+                            "the emitted radiance (linear RGB)"}};
   }
 };
 
@@ -72,19 +71,20 @@ struct DielectricMaterial {
   double priority = 0;
 
   static constexpr std::string_view name = "dielectric";
-  static constexpr std::string_view doc = "Glass, water: mirrors and lets through.";
+  static constexpr std::string_view doc = "Glass, water: reflects and transmits light.";
   static constexpr auto fields() {
     using M = DielectricMaterial;
     return std::tuple{
         Field{"index_of_refraction", &M::index_of_refraction, Unit::none, Range::at_least_one,
-              "of its inside; air has 1", true},
+              "of the inside; air has 1", true},
         Field{"roughness", &M::roughness, Unit::none, Range::zero_to_one, "0 for clear glass",
               true},
         Field{"absorption", &M::absorption, Unit::none, Range::not_negative,
-              "how much light is lost a length (linear RGB): exp(-absorption * length) is left",
+              "the absorption per length (linear RGB): exp(-absorption * length) is transmitted",
               true},
         Field{"priority", &M::priority, Unit::none, Range::any,
-              "where bodies overlap the greatest one counts; of equal ones, what was entered last",
+              "where bodies overlap, the greatest priority counts; among equal ones, the body "
+              "entered last",
               true}};
   }
 };
@@ -125,22 +125,19 @@ struct ConductorMaterial {
   double anisotropy = 0;
 
   static constexpr std::string_view name = "conductor";
-  static constexpr std::string_view doc = "A metal: mirrors, and lets nothing through.";
+  static constexpr std::string_view doc = "A metal: reflects light, transmits none.";
   static constexpr auto fields() {
     using M = ConductorMaterial;
     return std::tuple{
-        Field{"metal", &M::metal, Unit::none, Range::any, "which metal it is", true},
+        Field{"metal", &M::metal, Unit::none, Range::any, "the metal", true},
         Field{"color", &M::colour, Unit::none, Range::zero_to_one,
-              "instead of the metal: the part of the light that it mirrors straight ahead "
-              "(linear RGB)",
-              true},
+              "instead of the metal: the reflectance at normal incidence (linear RGB)", true},
         Field{"roughness", &M::roughness, Unit::none, Range::zero_to_one, "0 for a perfect mirror",
               true},
-        Field{
-            "anisotropy", &M::anisotropy, Unit::none, Range::zero_to_one,
-            "how much rougher it is across circles around the object's z axis than along them, as "
-            "turned on a lathe",
-            true}};
+        Field{"anisotropy", &M::anisotropy, Unit::none, Range::zero_to_one,
+              "roughness across circles around the object's z axis, compared with along them, as "
+              "turned on a lathe",
+              true}};
   }
 };
 
@@ -159,31 +156,29 @@ struct PrincipledMaterial {
 
   static constexpr std::string_view name = "principled";
   static constexpr std::string_view doc =
-      "Most things: a clear coat over sheen over a mixture of metal, glass and a matt base that "
-      "mirrors.";
+      "General material: a clear coat over sheen over a mixture of metal, glass and a glossy base.";
   static constexpr auto fields() {
     using M = PrincipledMaterial;
     return std::tuple{
         Field{"base_color", &M::colour, Unit::none, Range::zero_to_one,
-              "of the matt base, of metal, and of what glass lets through (linear RGB)"},
-        Field{"metallic", &M::metallic, Unit::none, Range::zero_to_one, "how much of it is metal",
+              "of the base, of metal, and of light through glass (linear RGB)"},
+        Field{"metallic", &M::metallic, Unit::none, Range::zero_to_one, "the fraction of metal",
               true},
         Field{"roughness", &M::roughness, Unit::none, Range::zero_to_one, "0 for a perfect mirror",
               true},
         Field{"anisotropy", &M::anisotropy, Unit::none, Range::zero_to_one,
               "of metal: as of a conductor", true},
         Field{"specular", &M::specular, Unit::none, Range::zero_to_one,
-              "how much the matt base mirrors of what its index of refraction says", true},
+              "the base's specular reflection, relative to that of its index of refraction", true},
         Field{"index_of_refraction", &M::index_of_refraction, Unit::none, Range::at_least_one,
               "of the base and of glass", true},
         Field{"transmission", &M::transmission, Unit::none, Range::zero_to_one,
-              "how much of what is no metal is glass", true},
-        Field{"coat", &M::coat, Unit::none, Range::zero_to_one, "how much clear coat there is",
-              true},
+              "the fraction of glass in the part that is not metal", true},
+        Field{"coat", &M::coat, Unit::none, Range::zero_to_one, "the amount of clear coat", true},
         Field{"coat_roughness", &M::coat_roughness, Unit::none, Range::zero_to_one, "the coat's",
               true},
         Field{"sheen", &M::sheen, Unit::none, Range::zero_to_one,
-              "how much it gleams at grazing angles, as cloth does", true}};
+              "the amount of sheen at grazing angles, as of cloth", true}};
   }
 };
 
@@ -198,12 +193,10 @@ struct TranslucentMaterial {
       "Paper, a leaf: a thin sheet that scatters light to both sides; bodies of it are hollow.";
   static constexpr auto fields() {
     using M = TranslucentMaterial;
-    return std::tuple{
-        Field{"color", &M::colour, Unit::none, Range::zero_to_one,
-              "the part of the light that it scatters, to both sides together (linear "
-              "RGB)"},
-        Field{"transmission", &M::transmission, Unit::none, Range::zero_to_one,
-              "how much of that goes through", true}};
+    return std::tuple{Field{"color", &M::colour, Unit::none, Range::zero_to_one,
+                            "the fraction of light scattered to both sides together (linear RGB)"},
+                      Field{"transmission", &M::transmission, Unit::none, Range::zero_to_one,
+                            "the fraction of that which is transmitted", true}};
   }
 };
 
@@ -219,17 +212,17 @@ struct MixMaterial {
   double amount = 0.5;
 
   static constexpr std::string_view name = "mix";
-  static constexpr std::string_view doc = "So much of one material, the rest of another one.";
+  static constexpr std::string_view doc = "A mixture of two materials.";
   static constexpr auto fields() {
     using M = MixMaterial;
-    return std::tuple{
-        Field{"materials", &M::materials, Unit::none, Range::any,
-              "the names of two materials that come before this one"},
-        Field{"amount", &M::amount, Unit::none, Range::zero_to_one, "the second one's part", true}};
+    return std::tuple{Field{"materials", &M::materials, Unit::none, Range::any,
+                            "the names of two materials listed before this one"},
+                      Field{"amount", &M::amount, Unit::none, Range::zero_to_one,
+                            "the second one's fraction", true}};
   }
 };
 
-/// What "type" may say of a material.
+/// Values of "type" for materials.
 using MaterialKind =
     std::variant<LambertMaterial, GlossyMaterial, EmissiveMaterial, DielectricMaterial,
                  ConductorMaterial, PrincipledMaterial, TranslucentMaterial, MixMaterial>;
@@ -241,7 +234,7 @@ struct Material {
   RayKinds visible_to = all_ray_kinds;  ///< as an object's
 };
 
-/// Whether a colour of it changes from place to place; not of what a mixture is made of.
+/// True if one of its colours is a texture. The parts of a mixture do not count.
 inline bool has_texture(const Material& material) {
   return std::visit(
       []<class M>(const M& kind) {
@@ -255,7 +248,7 @@ inline bool has_texture(const Material& material) {
       material.kind);
 }
 
-/// Whether its colour or its relief does.
+/// True if it has a texture or a relief.
 inline bool is_painted(const Material& material) {
   return has_texture(material) || material.relief.any();
 }

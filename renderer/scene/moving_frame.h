@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A frame that stands still, or moves: what a sensor is mounted on.
+// A fixed or moving frame, for example of a sensor's mount.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@ namespace minkray {
 
 struct MovingFrame {
   Affine<double> pose;
-  std::optional<Motion> motion = {};  ///< if there is one, `pose` is not looked at
+  std::optional<Motion> motion = {};  ///< used instead of `pose` if present
 
   Affine<double> at(double time) const { return motion ? motion->pose_at(time) : pose; }
 };

@@ -10,7 +10,7 @@
 
 namespace minkray {
 
-/// One of List::names, or empty; List::what says what it is: "a metal".
+/// One of List::names, or empty. List::what is the noun for messages: "a metal".
 template <class List>
 struct NameOf {
   std::string name;
@@ -23,7 +23,7 @@ struct PictureFile {
   std::string file;
   std::shared_ptr<const Image> image;
 
-  /// Whether its numbers are light as they are, not sRGB codes of it.
+  /// True if its numbers are linear light, false for sRGB codes.
   bool is_linear() const {
     return file.ends_with(".exr") || file.ends_with(".hdr") || file.ends_with(".EXR") ||
            file.ends_with(".HDR");

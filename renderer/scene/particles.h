@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One shape, posed many times: so many numbers a particle as its file holds, and nothing else.
+// One shape with many poses, stored as the numbers per particle that its file holds.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace minkray {
 
-/// What each particle's row of numbers says.
+/// Meaning of the numbers of a particle's row.
 enum class ParticleColumn : unsigned char { position, rotation, scale, scales, material };
 
 struct ParticleColumnDescription {
@@ -24,7 +24,7 @@ struct ParticleColumnDescription {
 };
 
 inline constexpr ParticleColumnDescription particle_columns[] = {
-    {ParticleColumn::position, "position", 3, "where the shape's origin is: x y z"},
+    {ParticleColumn::position, "position", 3, "the position of the shape's origin: x y z"},
     {ParticleColumn::rotation, "rotation", 4, "a quaternion x y z w of any length but zero"},
     {ParticleColumn::scale, "scale", 1, "a factor for all three axes of the shape, applied first"},
     {ParticleColumn::scales, "scales", 3, "a factor for each axis of the shape, applied first"},
@@ -46,7 +46,7 @@ struct ParticleSet {
   std::size_t row_numbers() const { return 3 + (has_rotation ? 4 : 0) + scale_numbers; }
   std::size_t size() const { return poses.size() / row_numbers(); }
 
-  /// Whether all poses differ in their translation alone.
+  /// True if the poses differ in translation only.
   bool linear_alike() const { return !has_rotation && scale_numbers == 0; }
 
   Affine<double> pose(std::size_t i) const {

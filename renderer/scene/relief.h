@@ -19,9 +19,9 @@ struct Relief {
     using R = Relief;
     return std::tuple{
         Field{"bump", &R::bump, Unit::none, Range::zero_to_one,
-              "a texture whose brightness is taken for the surface's height", true},
+              "a texture whose brightness is the surface's height", true},
         Field{"bump_height", &R::bump_height, Unit::length, Range::not_negative,
-              "how much higher white is than black", true},
+              "the height of white above black", true},
         Field{"normal_map", &R::normal_map, Unit::none, Range::zero_to_one,
               "a texture of type image: red to the right, green up, blue outwards, 0.5 for none "
               "(OpenGL's way round)",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A scene as plain data: what a scene file says, with defaults filled in and names resolved.
-// Lengths are in the scene's unit, directions need not be of unit length, colours are linear RGB.
-// What a file may say is described by the `fields()`, as for shapes (core/support/field.h).
+// A scene as plain data: the contents of a scene file with defaults filled in and names resolved.
+// Lengths are in the scene's unit. Directions need not have unit length. Colours are linear RGB.
+// `fields()` describes the keys of a file, as for shapes (core/support/field.h).
 #pragma once
 
 #include <cstdint>
@@ -45,7 +45,7 @@ struct Object {
   Affine<double> pose;                ///< from the shape's frame to the world
   std::uint32_t material = 0;         ///< index into Scene::materials
   std::optional<Motion> motion = {};  ///< `pose` is what it is at the scene's time
-  Movement<double> movement = {};     ///< what it does while the shutter is open
+  Movement<double> movement = {};     ///< motion while the shutter is open
   std::optional<HalfSpaceBody<double>> half_space =
       {};                                         ///< if there is one it is that, not `shape`
   std::shared_ptr<const TriangleMesh> mesh = {};  ///< the same
@@ -57,18 +57,18 @@ struct Object {
   bool has_shape() const { return !half_space && !mesh; }
 };
 
-/// What "type" says in the place of a shape's name for a half-space, which is none.
+/// "type" of a half-space, used like a shape's name.
 inline constexpr std::string_view half_space_name = "plane";
 
-/// What stands for a shape's name where an object is a mesh.
+/// Name of a mesh, used like a shape's name.
 inline constexpr std::string_view mesh_name = "mesh";
 
-/// What a ray sees that meets nothing: a vertical gradient.
+/// Colour of rays that hit nothing: a vertical gradient.
 struct Background {
   Colour zenith = Colour::Constant(1);
   Colour nadir = Colour::Constant(1);
 
-  static constexpr std::string_view doc = "What a ray sees that meets nothing.";
+  static constexpr std::string_view doc = "Colour of rays that hit nothing.";
   static constexpr auto fields() {
     using B = Background;
     return std::tuple{
@@ -86,23 +86,23 @@ struct Scene {
   std::vector<Object> objects;
   std::vector<ParticleSet> particles;
   Background background;
-  /// Whether cameras see the lights around the scene instead: it has a picture of the sky, and no
-  /// background of its own.
+  /// True if cameras see the environment light instead: the scene has a picture of the sky and no
+  /// background.
   bool background_is_sky = false;
-  bool labels = false;  ///< whether the objects' names are drawn into the picture
+  bool labels = false;  ///< true to draw the objects' names into the picture
   std::string hash;     ///< of the file it came from and of all files it names; or empty
   double time = 0;      ///< when the shutter opens, in seconds
   /// Cameras, lights and materials with keys: those above are what they are at the scene's time.
   std::optional<MemberKeys<CameraDescription>> camera_keys;
   std::vector<KeysOf<Light>> light_keys;
   std::vector<KeysOf<MaterialKind>> material_keys;
-  bool camera_is_framed = false;    ///< no file says where it stands: it shows everything
-  bool lights_are_default = false;  ///< no file says which there are
+  bool camera_is_framed = false;    ///< true if placed by framing, not by a file
+  bool lights_are_default = false;  ///< true if no file has lights
   /// The files of its textures and skies: no picture of it may take the place of one.
   std::vector<std::filesystem::path> pictures;
 };
 
-/// Whether any object has keys.
+/// True if any object has keys.
 bool moves(const Scene& scene);
 
 /// Makes the scene what it is at that time, in seconds. While the shutter is open the camera, the

@@ -18,7 +18,7 @@ inline std::size_t instance_count(const Scene& scene) {
   return count;
 }
 
-/// Where the i-th of all particles stands.
+/// Pose of the i-th of all particles.
 inline Affine<double> particle_pose(const Scene& scene, std::size_t i) {
   for (const ParticleSet& set : scene.particles) {
     if (i < set.size()) return set.pose(i);
@@ -27,13 +27,13 @@ inline Affine<double> particle_pose(const Scene& scene, std::size_t i) {
   return {};
 }
 
-/// Where the i-th instance stands.
+/// Pose of the i-th instance.
 inline Affine<double> instance_pose(const Scene& scene, std::size_t i) {
   return i < scene.objects.size() ? scene.objects[i].pose
                                   : particle_pose(scene, i - scene.objects.size());
 }
 
-/// What it does while the shutter is open.
+/// Motion of the i-th instance while the shutter is open.
 inline Movement<double> instance_movement(const Scene& scene, std::size_t i) {
   return i < scene.objects.size() ? scene.objects[i].movement : Movement<double>();
 }
@@ -53,7 +53,7 @@ inline RayKinds instance_visible_to(const Scene& scene, std::size_t i) {
   return all_ray_kinds;
 }
 
-/// Whether some rays go through some of them.
+/// True if any object or particle set is invisible to some rays.
 inline bool any_is_hidden(const Scene& scene) {
   const auto is_hidden = [](const auto& thing) { return thing.visible_to != all_ray_kinds; };
   return std::any_of(scene.objects.begin(), scene.objects.end(), is_hidden) ||
@@ -61,8 +61,8 @@ inline bool any_is_hidden(const Scene& scene) {
          std::any_of(scene.materials.begin(), scene.materials.end(), is_hidden);
 }
 
-/// Makes it an object of its own; a particle's name is that of its set with its number:
-/// "grains[12]". It is for single ones, not for millions.
+/// Makes an object of one instance; a particle's name is its set's name with its number,
+/// "grains[12]". Too slow for millions.
 inline Object instance_object(const Scene& scene, std::size_t i) {
   if (i < scene.objects.size()) return scene.objects[i];
   i -= scene.objects.size();

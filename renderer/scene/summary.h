@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What is in a scene: how many shapes of each kind, how large it is, what it takes in memory.
+// Summarises a scene: number of shapes per kind, bounds, memory.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// How often a kind of shape occurs.
+/// Number of shapes of a kind.
 struct KindCount {
   std::string_view name;
   std::size_t objects = 0;   ///< as an object's own shape

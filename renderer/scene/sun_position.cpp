@@ -12,7 +12,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Takes so many digits off the beginning of a text; -1 if there are not.
+/// Removes `digits` digits from the beginning of a text; -1 if there are fewer.
 int take_number(std::string_view& text, std::size_t digits) {
   int number = -1;
   if (text.size() < digits) return -1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Where the sun stands, by date, time and place: the low-precision formulas of the Astronomical
+// Direction to the sun at a date, time and location: low-precision formulas of the Astronomical
 // Almanac (Michalsky, "The Astronomical Almanac's algorithm for approximate solar position
-// (1950-2050)", Solar Energy 40, 1988), good to a fiftieth of a degree from 1950 to 2050.
+// (1950-2050)", Solar Energy 40, 1988). Error: 1/50 degree from 1950 to 2050.
 #pragma once
 
 #include <optional>

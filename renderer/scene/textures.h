@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Colours that change from place to place, as scene files say it: one struct a texture, the list of
-// all at the end. Shapes need no parametrisation: a texture is a function of the place in the
-// object's frame, or of a plane that a mapping takes the place to.
+// Textures of scene files: one struct per texture; the list of all is at the end. Shapes need no
+// parametrisation: a texture is a function of the point in the object's frame, or of a mapping of
+// that point to a plane.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@ namespace minkray {
 /// Linear RGB.
 using Colour = Vec3<double>;
 
-/// How places become places of a plane. Every convex body is star-shaped around a point of its
-/// inside, so that the directions from there tell all places of its surface apart.
+/// Maps points to a plane. Every convex body is star-shaped around an interior point, so the
+/// direction from that point identifies each surface point.
 struct Mappings {
   static constexpr std::string_view what = "a mapping";
   static constexpr std::array<std::string_view, 5> names = {"radial", "box", "planar", "normal",
@@ -30,13 +30,12 @@ using Mapping = NameOf<Mappings>;
 
 namespace texture_doc {
 inline constexpr std::string_view scale =
-    "the length of one repeat; of the mappings radial and normal the part of the turn, of uv that "
-    "of "
-    "the coordinates";
+    "the length of one repeat; in turns for the mappings radial and normal, in texture coordinates "
+    "for uv";
 inline constexpr std::string_view mapping =
     "radial: by longitude and latitude around the object's origin; box: along the axis that the "
-    "surface faces most; planar: along z; normal: by the normal's longitude and latitude; uv: by "
-    "a mesh's texture coordinates; if left out by the place in space";
+    "surface faces most; planar: along z; normal: by the normal's longitude and latitude; uv: by a "
+    "mesh's texture coordinates; by default by position in space";
 }  // namespace texture_doc
 
 struct ImageTexture {
@@ -58,7 +57,7 @@ struct ImageTexture {
   }
 };
 
-/// What textures of two colours have in common.
+/// Parameters of all textures with two colours.
 struct TwoColours {
   Colour a = Colour::Constant(0.8), b = Colour::Constant(0.15);
   double scale = 1;
@@ -68,8 +67,8 @@ struct TwoColours {
 template <class T>
 constexpr auto two_colour_fields() {
   return std::tuple{
-      Field<T, Colour>{"a", &T::a, Unit::none, Range::zero_to_one, "the one colour", true},
-      Field<T, Colour>{"b", &T::b, Unit::none, Range::zero_to_one, "the other colour", true},
+      Field<T, Colour>{"a", &T::a, Unit::none, Range::zero_to_one, "the first colour", true},
+      Field<T, Colour>{"b", &T::b, Unit::none, Range::zero_to_one, "the second colour", true},
       Field<T, double>{"scale", &T::scale, Unit::length, Range::positive, texture_doc::scale, true},
       Field<T, Mapping>{"mapping", &T::mapping, Unit::none, Range::any, texture_doc::mapping,
                         true}};
@@ -77,7 +76,7 @@ constexpr auto two_colour_fields() {
 
 struct CheckerTexture : TwoColours {
   static constexpr std::string_view name = "checker";
-  static constexpr std::string_view doc = "Fields of two colours, or cubes.";
+  static constexpr std::string_view doc = "A checkerboard of two colours, or cubes.";
   static constexpr auto fields() { return two_colour_fields<CheckerTexture>(); }
 };
 
@@ -90,7 +89,7 @@ struct GridTexture : TwoColours {
     return std::tuple_cat(two_colour_fields<GridTexture>(),
                           std::tuple{Field<GridTexture, double>{
                               "width", &GridTexture::width, Unit::none, Range::zero_to_one,
-                              "of the lines, as a part of the scale", true}});
+                              "of the lines, as a fraction of the scale", true}});
   }
 };
 
@@ -126,7 +125,7 @@ struct WoodTexture : TwoColours {
   static constexpr auto fields() { return two_colour_fields<WoodTexture>(); }
 };
 
-/// What "type" may say of a texture.
+/// Values of "type" for textures.
 using TextureKind = std::variant<ImageTexture, CheckerTexture, GridTexture, GradientTexture,
                                  NoiseTexture, MarbleTexture, WoodTexture>;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which rays meet a thing in the scene, and which go through it.
+// Kinds of rays that an object is visible to.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace minkray {
 
-/// Rays that pictures tell apart, as bits of RayKinds.
+/// Kinds of rays in pictures, as bits of RayKinds.
 inline constexpr RayKinds camera_rays = 1, shadow_rays = 2, scattered_rays = 4;
 
 struct RayKindsName {
@@ -19,10 +19,9 @@ struct RayKindsName {
 };
 
 inline constexpr std::array<RayKindsName, 3> ray_kinds_names = {{
-    {camera_rays, "camera", "it is seen where nothing is between"},
-    {shadow_rays, "shadow", "it keeps the light of lamps from others"},
-    {scattered_rays, "scattered",
-     "it is seen in mirrors and through glass, and by rays that surfaces scatter"},
+    {camera_rays, "camera", "visible to the camera"},
+    {shadow_rays, "shadow", "casts shadows"},
+    {scattered_rays, "scattered", "visible in mirrors, through glass and to scattered light"},
 }};
 
 }  // namespace minkray

@@ -26,9 +26,9 @@ struct HalfSpaceDescription {
   static constexpr auto fields() {
     using H = HalfSpaceDescription;
     return std::tuple{Field{"normal", &H::normal, Unit::none, Range::any,
-                            "of any length but zero; [0, 0, 1] if left out", true},
+                            "of any length except zero; default [0, 0, 1]", true},
                       Field{"offset", &H::offset, Unit::length, Range::any,
-                            "along the normal, as if that had length 1; 0 if left out", true}};
+                            "along the unit normal; default 0", true}};
   }
 };
 

@@ -16,8 +16,8 @@ constexpr std::size_t longest_colour = 60;
 bool MaterialNames::add(Material material, const JsonPath& path, Mistakes& mistakes) {
   const auto index = static_cast<std::uint32_t>(scene_.materials.size());
   if (!index_.emplace(material.name, index).second) {
-    mistakes.add(path / "name", "must not be the name of two materials (got \"" +
-                                    printable(material.name, 60) + "\" again)");
+    mistakes.add(path / "name",
+                 "duplicate material (got \"" + printable(material.name, 60) + "\" again)");
     return false;
   }
   scene_.materials.push_back(std::move(material));

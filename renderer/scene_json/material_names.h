@@ -13,7 +13,7 @@
 
 namespace minkray {
 
-/// What objects are made of that say neither a material nor a colour.
+/// Colour of objects with neither a material nor a colour.
 inline const Colour default_colour = Colour::Constant(0.5);
 
 class MaterialNames {
@@ -26,15 +26,15 @@ class MaterialNames {
   /// The index of the material that is named; a mistake, and 0, if there is none.
   std::uint32_t named(const Json& name, const JsonPath& path, Mistakes& mistakes) const;
 
-  /// A matt material of that colour or texture, the same for the same JSON; 0 and a mistake if it
-  /// is none. `file` tells files of textures apart.
+  /// Returns the matt material of a colour or texture, the same one for the same JSON; 0 and a
+  /// mistake if the JSON is invalid. `file` distinguishes textures of different files.
   std::uint32_t of_colour(const Json& colour, const JsonPath& path, Mistakes& mistakes,
                           MeshFiles& files, const std::string& file);
 
   /// Adds a matt material of a mesh file's, the same for the same name and `file`.
   std::uint32_t of_file(const std::string& name, const void* file, const Paint& paint);
 
-  /// The one of objects that say nothing.
+  /// Material of objects with neither a material nor a colour.
   std::uint32_t default_one();
 
  private:

@@ -94,7 +94,7 @@ bool read_material_of(ObjectReader& mesh, const Json& written, std::size_t trian
   const Json* names = mesh.find("materials");
   const std::size_t count = names && names->is_array() ? names->size() : 0;
   if (!names) {
-    mesh.mistakes().add(mesh.path("material_of"), "must not be given without \"materials\"");
+    mesh.mistakes().add(mesh.path("material_of"), "not allowed without \"materials\"");
     return false;
   }
   for (std::size_t i = 0; i < written.size(); ++i) {
@@ -146,7 +146,7 @@ std::optional<MeshAttributes> read_attributes(ObjectReader& mesh,
   MeshAttributes made;
   const Json* normals = mesh.find("normals");
   if (normals && mesh.find("smooth")) {
-    mesh.mistakes().add(mesh.path("smooth"), "must not be given beside \"normals\"");
+    mesh.mistakes().add(mesh.path("smooth"), "not allowed together with \"normals\"");
     return std::nullopt;
   }
   if (normals) {

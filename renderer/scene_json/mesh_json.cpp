@@ -106,7 +106,7 @@ SceneMesh read_mesh(const Json& json, const JsonPath& path, Mistakes& mistakes, 
         std::make_shared<const TriangleMesh>(std::move(*vertices), std::move(*triangles), sides);
     if (sides == MeshSides::front && !looks_one_way(*made.mesh)) {
       mistakes.add(object.path("sides"),
-                   "must be \"both\" unless all triangles lie in one plane and look the same way");
+                   "must be \"both\" unless all triangles lie in one plane and face the same way");
       return {};
     }
     auto attributes =

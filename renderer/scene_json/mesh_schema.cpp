@@ -20,7 +20,7 @@ Json mesh_schema() {
              name = {{"type", "string"}, {"minLength", 1}},
              vectors = list_of(schema_of_list({{"type", "number"}}, 3));
   Json mesh = {{"type", "object"},
-               {"description", "Triangles as they are: of a file, or of vertices."},
+               {"description", "Triangles of a file, or listed here."},
                {"required", Json::array()},
                {"additionalProperties", false}};
   Json& properties = mesh["properties"] = Json::object();
@@ -28,19 +28,18 @@ Json mesh_schema() {
     schema["description"] = description;
     properties[key] = std::move(schema);
   };
-  add("file", {{"type", "string"}}, "of OBJ or STL, relative to the scene's folder");
-  add("scale", schema_of_number(Range::positive), "what multiplies the file's coordinates");
+  add("file", {{"type", "string"}}, "an OBJ or STL file, relative to the scene's folder");
+  add("scale", schema_of_number(Range::positive), "a factor of the file's coordinates");
   add("vertices", list_of(schema_of_list({{"type", "number"}}, 3), 3), "points");
   add("triangles", list_of(numbers),
       "three numbers of vertices each, from 0 on, counter-clockwise as seen from outside");
   add("sides", {{"enum", Json::array({"both", "front"})}},
-      "from where rays meet the triangles; \"front\" if all lie in one plane and look the same "
+      "the sides that rays hit; \"front\" only if all triangles lie in one plane and face the same "
       "way");
   add("smooth",
       {{"oneOf", Json::array({{{"type", "boolean"}},
                               {{"type", "number"}, {"exclusiveMinimum", 0}, {"maximum", 180}}})}},
-      "shading by mean normals of the vertices: at all edges, or up to an angle between triangles "
-      "in "
+      "smooth shading by mean vertex normals: at all edges, or up to an angle between triangles in "
       "degrees; false: flat, without the file's normals");
   add("normals", vectors,
       "for shading: directions, one per vertex or as \"normal_triangles\" says");
@@ -52,7 +51,7 @@ Json mesh_schema() {
   add("materials",
       {{"oneOf",
         Json::array({list_of(name), {{"type", "object"}, {"additionalProperties", name}}})}},
-      "names of materials for \"material_of\"; of a file: what to show for its materials");
+      "names of materials for \"material_of\"; with a file: replacements of its materials");
   add("material_of", list_of(or_null(number)),
       "per triangle the number of one of the materials; null: the object's");
   mesh["oneOf"] =

@@ -37,7 +37,7 @@ std::string text_of(std::span<const double> numbers) {
   return text;
 }
 
-/// What a column's numbers must be and are not; empty if nothing is wrong.
+/// Returns the condition that a column's numbers violate; empty if they are valid.
 std::string_view complaint(ParticleColumn column, std::span<const double> numbers,
                            std::size_t materials) {
   for (const double number : numbers)
@@ -88,7 +88,7 @@ void read_binary(RegularFile& file, std::optional<std::size_t> count, std::size_
   const std::size_t expected = file.size() / row_bytes;
   if (const std::size_t rest = file.size() % row_bytes; rest != 0)
     fail("row", expected + 1,
-         "is cut off (got " + std::to_string(rest) + " of its " + std::to_string(row_bytes) +
+         "is truncated (got " + std::to_string(rest) + " of its " + std::to_string(row_bytes) +
              " bytes)");
   check_count(expected, count, most_rows);
   rows.reserve(expected);
@@ -209,7 +209,7 @@ void ParticleRows::reserve(std::size_t rows) {
 }
 
 std::optional<std::string> ParticleRows::add(std::span<const double> row) {
-  // Where each column's numbers are in the row.
+  // Numbers of each column in the row.
   std::span<const double> found[std::size(particle_columns)];
   std::size_t at = 0;
   for (const ParticleColumn column : columns_) {

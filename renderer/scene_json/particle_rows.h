@@ -17,16 +17,16 @@ namespace minkray {
 /// Fills a set row by row.
 class ParticleRows {
  public:
-  /// The columns say what a row's numbers are, in their order; each at most once, the position
-  /// among them, and not both kinds of scales. Sets the set's layout.
+  /// `columns` lists the meaning of a row's numbers in order: each at most once, with the position,
+  /// and not both kinds of scales. Sets the set's layout.
   ParticleRows(std::vector<ParticleColumn> columns, ParticleSet& set);
 
   std::size_t row_numbers() const { return row_numbers_; }
   std::size_t count() const { return count_; }
   void reserve(std::size_t rows);
 
-  /// One row of row_numbers() numbers. What is wrong with it, if anything: "rotation must not be
-  /// zero (got 0 0 0 0)"; it is then left out.
+  /// Adds one row of row_numbers() numbers. Returns the error of an invalid row, which is not
+  /// added: "rotation must not be zero (got 0 0 0 0)".
   std::optional<std::string> add(std::span<const double> row);
 
   /// The name of the column that a row's number belongs to.
@@ -41,9 +41,9 @@ class ParticleRows {
   std::size_t count_ = 0;
 };
 
-/// Adds the rows of a file: .csv (text) or .f32 or .f64 (little-endian floats or doubles, nothing
-/// between them). `count`: how many rows it must hold. At most `most_rows`. Throws
-/// std::runtime_error that says what is wrong, and in which row or line, without the file's name.
+/// Adds the rows of a file: .csv (text), .f32 or .f64 (little-endian floats or doubles without
+/// separators). The file must hold `count` rows, if given, and at most `most_rows`. Throws
+/// std::runtime_error with the error and its row or line, without the file's name.
 void read_particle_file(const std::filesystem::path& path, std::optional<std::size_t> count,
                         std::size_t most_rows, ParticleRows& rows, Hash& hash);
 

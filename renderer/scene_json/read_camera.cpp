@@ -35,7 +35,7 @@ void CameraReader::read(const Json& json, const JsonPath& path, int version) {
 
 void CameraReader::settle(const JsonPath& path) {
   const bool is_placed = has_position_ && has_look_at_;
-  // What is framed must be right.
+  // Framing needs a valid scene.
   if (!is_version_one_ && is_good_ && !is_placed && mistakes_.none()) {
     CameraDescription& camera = scene_.camera;
     const CameraDescription written = camera;
@@ -46,7 +46,7 @@ void CameraReader::settle(const JsonPath& path) {
       camera.look_at = written.look_at;
       camera.position = written.look_at + back;
     }
-    // What keys begin with stays as it is.
+    // Keys start at the position and must not be framed again.
     scene_.camera_is_framed =
         !has_position_ && !has_look_at_ && !(json_ && json_->contains("keys"));
     if (!has_up_) choose_up(camera);
@@ -67,7 +67,7 @@ void CameraReader::read_keys() {
     const CameraDescription camera = made.at(made.keys[i].time);
     const Vec3<double> view = unit<double>(camera.look_at - camera.position);
     if (view.isZero())
-      mistakes_.add(path / i, "must not put the camera where it looks at");
+      mistakes_.add(path / i, "must not place the camera at look_at");
     else if (i > 0)
       check_turn(before, view, path / i, mistakes_);
     before = view;

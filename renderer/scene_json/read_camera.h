@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The camera of a scene file, and where it is if the file does not say it.
+// Reads the camera of a scene file, and places it if the file does not.
 #pragma once
 
 #include "renderer/json/json.h"
@@ -14,10 +14,10 @@ class CameraReader {
   CameraReader(Scene& scene, MeshFiles& files, Mistakes& mistakes)
       : scene_(scene), files_(files), mistakes_(mistakes) {}
 
-  /// In version 1 a camera must say where it is.
+  /// Version 1 requires a camera's position.
   void read(const Json& json, const JsonPath& path, int version);
-  /// Once all objects are read: frames them, unless the file says where the camera is, and finds
-  /// its focus. Reads keys last, which begin with what the camera is then.
+  /// Frames all objects, unless the file places the camera, and finds its focus. Call after all
+  /// objects are read. Reads keys last, since they start with the final camera.
   void settle(const JsonPath& path);
 
  private:

@@ -25,7 +25,7 @@ Affine<double> read_transform(ObjectReader& object) {
   return pose;
 }
 
-/// What an object without a name is called after.
+/// Base of the name of an object without a name.
 std::string kind_of(const Json& object) {
   for (const char* key : {"mesh", "height_field"})
     if (object.contains(key)) return key;
@@ -127,7 +127,7 @@ std::uint32_t ObjectsReader::read_material_of(ObjectReader& object) {
   }
   const Json *material = object.find("material"), *colour = object.find("color");
   if (material && colour)
-    mistakes_.add(object.path("color"), "must not be given beside \"material\"");
+    mistakes_.add(object.path("color"), "not allowed together with \"material\"");
   if (material) return materials_.named(*material, object.path("material"), mistakes_);
   if (colour)
     return materials_.of_colour(*colour, object.path("color"), mistakes_, meshes_, file_->shown);
@@ -140,7 +140,7 @@ std::optional<Motion> ObjectsReader::read_motion(ObjectReader& object, const Aff
   Vec3<double> pivot = is_version_one() ? Vec3<double>(Vec3<double>::Zero()) : pose.translation;
   if (const Json* point = is_version_one() ? nullptr : object.find("pivot")) {
     pivot = read_vector(*point, object.path("pivot"), mistakes_).value_or(pivot);
-    if (!written) mistakes_.add(object.path("pivot"), "must not be given without \"keys\"");
+    if (!written) mistakes_.add(object.path("pivot"), "not allowed without \"keys\"");
   }
   if (!written) return std::nullopt;
   Motion motion{read_keys(*written, object.path("keys"), mistakes_, pivot), pose};
@@ -166,7 +166,7 @@ void ObjectsReader::read_object(const Json& json, const JsonPath& path, const Fr
     const std::string given = triangles ? "mesh" : "height_field";
     for (const char* other : {"shape", "split", "height_field"})
       if (given != other && object.find(other))
-        mistakes_.add(object.path(other), "must not be given beside \"" + given + "\"");
+        mistakes_.add(object.path(other), "not allowed together with \"" + given + "\"");
     if (triangles)
       mesh = read_mesh(*triangles, object.path(given), mistakes_, meshes_);
     else
@@ -191,7 +191,7 @@ void ObjectsReader::read_object(const Json& json, const JsonPath& path, const Fr
   const Affine<double> pose = frame.is_posed ? frame.pose * own : own;
   if (frame.is_posed && (!pose.translation.allFinite() || !pose.linear.allFinite() ||
                          !inverse_of(pose.linear).allFinite()))
-    mistakes_.add(path, "must have a size and a place in its groups that numbers can hold");
+    mistakes_.add(path, "must have size and position within the range of numbers");
   Object made{name, Point<double>(), pose, material, std::move(motion)};
   made.half_space = half_space;
   made.visible_to = visible_to;

@@ -13,7 +13,7 @@
 
 namespace minkray {
 
-/// Files that are included again and again may make so many objects.
+/// Limit of objects from files that are included repeatedly.
 inline constexpr std::size_t most_objects_of_groups = std::size_t{1} << 22;
 inline constexpr std::size_t most_groups = 100'000;
 
@@ -26,7 +26,7 @@ class ObjectsReader {
   void read(const SceneFile& file);
 
  private:
-  /// What stands around an object.
+  /// Frame of the groups around an object.
   struct Frame {
     Affine<double> pose;
     bool is_posed = false;

@@ -49,13 +49,13 @@ std::optional<std::vector<ParticleColumn>> read_columns(ObjectReader& block) {
       return std::nullopt;
     }
     if (contains(columns, known->column)) {
-      mistakes.add(path / i, "must not be there twice (" + found((*json)[i]) + " again)");
+      mistakes.add(path / i, "duplicate (" + found((*json)[i]) + " again)");
       return std::nullopt;
     }
     columns.push_back(known->column);
   }
   if (!contains(columns, ParticleColumn::position)) {
-    mistakes.add(path, "must have \"position\" among them (" + found(*json) + " without it)");
+    mistakes.add(path, "must contain \"position\" (" + found(*json) + " without it)");
     return std::nullopt;
   }
   if (contains(columns, ParticleColumn::scale) && contains(columns, ParticleColumn::scales)) {
@@ -152,9 +152,8 @@ std::optional<ParticleSet> read_particles(const Json& json, const JsonPath& path
   const char* unused =
       columns && contains(*columns, ParticleColumn::material) ? "material" : "materials";
   if (columns && block.find(unused)) {
-    mistakes.add(block.path(unused),
-                 std::string("must not be there: \"materials\" goes with a column ") +
-                     "\"material\", \"material\" with none");
+    mistakes.add(block.path(unused), std::string("not allowed: use \"materials\" with a column ") +
+                                         "\"material\", else \"material\"");
     good = false;
   }
   block.finish();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A block of particles in a scene file: docs/scene-format.md says what it may hold.
+// Reads a block of particles of a scene file (docs/scene-format.md).
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@
 
 namespace minkray {
 
-/// What a block is read with.
+/// Input of the reader of a block.
 struct ParticleSource {
   const Scene& scene;                   ///< as far as it is read
   const std::filesystem::path& folder;  ///< files are named relative to it

@@ -26,7 +26,7 @@ std::optional<std::vector<Shape<double>>> read_split_hulls(ObjectReader& object,
   const Json* file = shape.is_object() ? shape.find("file") : nullptr;
   if (!type || !type->is_string() || type->text() != Hull<double>::name || !file ||
       shape.size() != 2) {
-    mistakes.add(split_path, "must stand beside a shape {\"type\": \"hull\", \"file\": ...}");
+    mistakes.add(split_path, "needs a shape {\"type\": \"hull\", \"file\": ...}");
     return std::nullopt;
   }
   const auto name = read_string(*file, shape_path / "file", mistakes);

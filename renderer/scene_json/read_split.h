@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Objects whose mesh has parts, each of which gets a hull of its own.
+// Splits objects whose mesh has several parts into one hull per part.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace minkray {
 
-/// What "split" may say, and what it means.
+/// Values of "split" and their meaning.
 struct MeshSplitName {
   std::string_view name;
   MeshSplit split;

@@ -45,7 +45,7 @@ RayKinds read_visible_to(ObjectReader& object) {
       mistakes.add(path / i, "must be the name of rays (" + found((*json)[i]) + "; " +
                                  suggestion(*name, known_names()) + ")");
     } else if (kinds & known->kinds) {
-      mistakes.add(path / i, "must not be there twice (" + found((*json)[i]) + " again)");
+      mistakes.add(path / i, "duplicate (" + found((*json)[i]) + " again)");
     } else {
       kinds = static_cast<RayKinds>(kinds | known->kinds);
     }
@@ -56,13 +56,12 @@ RayKinds read_visible_to(ObjectReader& object) {
 void check_visible(const Scene& scene, std::uint32_t material, RayKinds visible_to,
                    const ObjectReader& object) {
   constexpr RayKinds bring_light = shadow_rays | scattered_rays;
-  if (material >= scene.materials.size()) return;  // a mistake that has been told of
+  if (material >= scene.materials.size()) return;  // already reported
   const Material& its = scene.materials[material];
   if ((visible_to & its.visible_to & bring_light) == bring_light || !may_shine(scene, its.kind))
     return;
   object.mistakes().add(object.path(key),
-                        "must have \"shadow\" and \"scattered\" among them, which bring the "
-                        "light of what shines (it is of \"" +
+                        "must contain \"shadow\" and \"scattered\" for an emissive material (\"" +
                             printable(its.name, 60) + "\")");
 }
 
@@ -76,7 +75,7 @@ void write_visible_to(Json& object, RayKinds visible_to) {
 
 Json visible_to_schema() {
   Json names = Json::array();
-  std::string doc = "the rays that meet it, others go through it; all if left out";
+  std::string doc = "the rays that hit it; others pass through; by default all";
   for (const RayKindsName& known : ray_kinds_names) {
     names.push_back(std::string(known.name));
     doc += "; " + std::string(known.name) + ": " + std::string(known.doc);

@@ -10,7 +10,7 @@ namespace minkray {
 /// All rays, where the key is not there or wrong.
 RayKinds read_visible_to(ObjectReader& object);
 
-/// What shines must be there for those rays that bring its light: a mistake where it is not.
+/// Adds a mistake if an emissive object is invisible to rays that carry its light.
 void check_visible(const Scene& scene, std::uint32_t material, RayKinds visible_to,
                    const ObjectReader& object);
 

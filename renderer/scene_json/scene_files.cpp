@@ -23,7 +23,7 @@ fs::path identity_of(const fs::path& file) {
   return error ? file.lexically_normal() : found;
 }
 
-/// The version that a file says, or 0 and a mistake.
+/// Returns the version of a file, or 0 and a mistake.
 int version_of(const Json& json, Mistakes& mistakes) {
   ObjectReader file(json, JsonPath(), mistakes);
   const Json* version = file.require("version", "1 or 2");

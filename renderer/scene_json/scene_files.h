@@ -15,13 +15,13 @@
 
 namespace minkray {
 
-/// Files in a chain of which each includes the next.
+/// Limit of the nesting of includes.
 inline constexpr std::size_t deepest_includes = 64;
 inline constexpr std::size_t most_included_files = 10'000;
 
 struct SceneFile {
-  std::string shown;             ///< its name in messages
-  std::filesystem::path folder;  ///< its own, relative to that of the scene; empty for the scene
+  std::string shown;             ///< name in messages
+  std::filesystem::path folder;  ///< relative to the scene's; empty for the scene
   Json json;
   int version = 0;  ///< 0 if it is wrong
   /// The files that it includes, by the JSON of their names.
@@ -31,8 +31,7 @@ struct SceneFile {
 
 class SceneFiles {
  public:
-  /// `text` is the scene's, `folder` where its files are looked for. What cannot be read is a
-  /// mistake.
+  /// `text` is the scene's, `folder` the folder of its files. An unreadable file is a mistake.
   SceneFiles(std::string_view text, std::filesystem::path folder, Mistakes& mistakes);
 
   /// Null if it could not be read.

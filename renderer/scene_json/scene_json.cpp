@@ -134,7 +134,7 @@ class SceneReader {
     });
   }
 
-  /// Reads what comes behind objects; unknown keys are told last.
+  /// Reads the keys after the objects; reports unknown keys last.
   void read_rest(const SceneFile& scene_file, bool is_main, bool is_whole) {
     ObjectReader file(scene_file.json, JsonPath(), mistakes_);
     if (!file.is_object()) return;
@@ -148,7 +148,7 @@ class SceneReader {
     file.finish();
   }
 
-  /// What files leave out, once all is read.
+  /// Fills in what no file has given, once all are read.
   void settle(const SceneFile& main) {
     if (!has_lights_)
       scene_.lights_are_default = true;
@@ -163,8 +163,7 @@ class SceneReader {
     }
   }
 
-  /// Cameras see the sky that lights the scene; what stands for one that is none is white in
-  /// version 1.
+  /// Cameras see the environment light. Without one, the background of version 1 is white.
   void choose_background(int version) {
     for (const Light& light : scene_.lights)
       if (std::holds_alternative<ImageSkyLight>(light) ||

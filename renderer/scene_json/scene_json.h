@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scene files: docs/scene-format.md says what they may hold.
+// Reads and writes scene files (docs/scene-format.md).
 #pragma once
 
 #include <filesystem>

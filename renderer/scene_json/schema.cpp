@@ -43,8 +43,8 @@ void add_members(Json& object) {
   });
 }
 
-/// The schema of one of several described structs; `amend(schema of S's object)` adds what they
-/// have beside their own parameters.
+/// Schema of one of several described structs. `amend(schema of S's object)` adds keys that are not
+/// parameters.
 template <class Variant, class Amend>
 Json tagged_schema(std::string_view doc, Amend&& amend) {
   Json any_of = Json::array();
@@ -77,10 +77,10 @@ Json list_of(const char* definition) {
   return {{"type", "array"}, {"items", {{"$ref", std::string("#/$defs/") + definition}}}};
 }
 
-/// What the keys of a described struct hold: those of its parameters that can change.
+/// Schema of the keys of a described struct: its parameters that can change.
 template <class S>
 Json keys_schema(bool has_intensity) {
-  Json key = object_schema("Some of its values at a time; between keys they go along lines.");
+  Json key = object_schema("Values at a time; linear between keys.");
   key["properties"]["time"] = {{"type", "number"}, {"description", "in seconds"}};
   for_each_field<S>([&](const auto& field) {
     using M = typename std::remove_cvref_t<decltype(field)>::Member;
@@ -97,9 +97,8 @@ Json keys_schema(bool has_intensity) {
   return {{"type", "array"}, {"items", std::move(key)}, {"minItems", 1}};
 }
 
-/// What version 1 asks for that later ones leave to defaults, without the keys of later versions.
-/// Values of later versions (colours as text, rotations as objects) are refused when a file is
-/// read.
+/// Keys that version 1 requires and later versions do not. Keys of later versions are rejected when
+/// a file is read.
 Json version_one_schema() {
   Json schema;
   schema["required"] = {"camera", "lights", "materials", "objects"};
@@ -123,13 +122,13 @@ Json described_object(Json schema, auto add) {
 Json scene_schema() {
   const Json text = {{"type", "string"}};
   const Json name = {{"type", "string"}, {"minLength", 1}};
-  const Json include = {{"description", "scene files, relative to this one, that are part of it"},
+  const Json include = {{"description", "scene files to include, relative to this one"},
                         {"oneOf", Json::array({name, {{"type", "array"}, {"items", name}}})}};
   const Json colour = colour_schema(Range::brightness);
   const Json background =
       described_object(object_schema(Background::doc), [](Json& o) { add_members<Background>(o); });
 
-  Json object = object_schema("A thing in the scene.");
+  Json object = object_schema("An object of the scene.");
   Json split_names = Json::array();
   for (const MeshSplitName& split : mesh_split_names)
     split_names.push_back(std::string(split.name));
@@ -148,37 +147,38 @@ Json scene_schema() {
       {"visible_to", visible_to_schema()},
       {"split",
        {{"description",
-         "makes an object of each part of the shape's mesh file: the parts that it names, or those "
-         "that hang together"},
+         "one object per part of the shape's mesh file: its named parts, or its connected "
+         "components"},
         {"enum", split_names}}},
       {"keys",
        {{"type", "array"},
-        {"description", "where it is when, with rising times"},
+        {"description", "poses at increasing times"},
         {"items", {{"$ref", "#/$defs/key"}}},
         {"minItems", 1}}}};
-  object["properties"]["color"]["description"] = "instead of a material: matt, of this colour";
+  object["properties"]["color"]["description"] =
+      "instead of a material: a diffuse one of this colour";
   object["properties"]["pivot"]["description"] =
-      "what keys turn it about, in the frame around it; its own origin if left out";
+      "the pivot of its keys, in the frame around it; by default its origin";
   object["not"] = {{"required", {"material", "color"}}};
   object["oneOf"] = Json::array(
       {{{"required", {"shape"}}}, {{"required", {"mesh"}}}, {{"required", {"height_field"}}}});
 
   Json key = object_schema(
-      "Where an object is at a time: turned about its origin, and moved from its transform's place "
-      "(in version 1 about the world's origin, after its transform).");
+      "Pose of an object at a time: rotated about its origin and translated, relative to its "
+      "transform (version 1: about the world's origin, after its transform).");
   key["properties"] = {{"time", {{"type", "number"}, {"description", "in seconds"}}},
                        {"translate", schema_of_list({{"type", "number"}}, 3)},
                        {"rotate", {{"$ref", "#/$defs/rotation"}}}};
-  key["properties"]["rotate"]["description"] = "from how its transform turns it";
+  key["properties"]["rotate"]["description"] = "relative to its transform";
   key["required"] = {"time"};
 
   Json column_names = Json::array();
-  std::string column_docs = "what each row's numbers are, in their order";
+  std::string column_docs = "the meaning of each row's numbers, in order";
   for (const ParticleColumnDescription& column : particle_columns) {
     column_names.push_back(std::string(column.name));
     column_docs += "; " + std::string(column.name) + ": " + std::string(column.doc);
   }
-  Json particles = object_schema("One shape, posed many times.");
+  Json particles = object_schema("One shape with many poses.");
   particles["properties"] = {
       {"name", name},
       {"shape", {{"$ref", "#/$defs/shape"}}},
@@ -191,13 +191,15 @@ Json scene_schema() {
       {"material", name},
       {"materials", {{"type", "array"}, {"items", name}, {"minItems", 1}}},
       {"visible_to", visible_to_schema()},
-      {"count", {{"type", "integer"}, {"minimum", 1}, {"description", "how many rows there are"}}},
+      {"count", {{"type", "integer"}, {"minimum", 1}, {"description", "the number of rows"}}},
       {"poses",
        {{"type", "array"},
         {"items", {{"type", "array"}, {"items", {{"type", "number"}}}}},
         {"minItems", 1}}},
       {"file",
-       {{"type", "string"}, {"pattern", "\\.(csv|f32|f64)$"}, {"description", "holds the rows"}}}};
+       {{"type", "string"},
+        {"pattern", "\\.(csv|f32|f64)$"},
+        {"description", "the file of the rows"}}}};
   particles["required"] = {"name", "shape"};
   particles["allOf"] = Json::array(
       {{{"oneOf", Json::array({{{"required", {"poses"}}}, {{"required", {"file"}}}})}},
@@ -227,7 +229,7 @@ Json scene_schema() {
   Json& definitions = schema["$defs"];
   definitions["camera"] = described_object(object_schema(CameraDescription::doc), [](Json& o) {
     add_members<CameraDescription>(o);
-    o["required"] = Json::array();  // those of version 1 are told there
+    o["required"] = Json::array();  // version_one_schema() has those of version 1
     o["properties"]["keys"] = keys_schema<CameraDescription>(false);
   });
   definitions["rotation"] = rotation_schema();
@@ -235,12 +237,12 @@ Json scene_schema() {
       {"type", "array"},
       {"items",
        {{"anyOf", Json::array({{{"$ref", "#/$defs/object"}}, {{"$ref", "#/$defs/group"}}})}}}};
-  Json group = object_schema("Objects that stand in one frame, of a file or not.");
+  Json group = object_schema("Objects in one frame, from a file or listed here.");
   group["properties"] = {{"name", text},
                          {"transform", {{"$ref", "#/$defs/transform"}}},
                          {"include", name},
                          {"objects", {{"$ref", "#/$defs/objects"}}}};
-  group["properties"]["name"]["description"] = "comes before its objects' names, with a slash";
+  group["properties"]["name"]["description"] = "prefix of its objects' names, with a slash";
   group["properties"]["include"]["description"] =
       "a scene file, relative to this one: its materials and objects";
   group["anyOf"] = Json::array({{{"required", {"include"}}}, {{"required", {"objects"}}}});
@@ -283,14 +285,14 @@ Json scene_schema() {
   terrain["properties"]["heights"]["description"] = "rows along x, the one of the least y first";
   terrain["properties"]["size"]["description"] =
       "along x and along y; with a file also the height of white";
-  terrain["properties"]["bottom"]["description"] = "the z at which walls and a bottom close it";
+  terrain["properties"]["bottom"]["description"] = "the z of a bottom that closes it, with walls";
   terrain["required"] = {"size"};
   terrain["oneOf"] = Json::array({{{"required", {"file"}}}, {{"required", {"heights"}}}});
   definitions["height_field"] = std::move(terrain);
   definitions["key"] = std::move(key);
   definitions["particles"] = std::move(particles);
   definitions["transform"] =
-      described_object(object_schema("Where an object stands."), [](Json& transform) {
+      described_object(object_schema("Pose of an object."), [](Json& transform) {
         const auto pose = describe(Parameter(), Member<AffineMap<double>>());
         transform["properties"] = pose.properties;
         transform["allOf"] = pose.allowed;

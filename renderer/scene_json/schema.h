@@ -6,8 +6,8 @@
 
 namespace minkray {
 
-/// JSON Schema, draft 2020-12. What it cannot say (a material's name must exist, a matrix must be
-/// invertible, ...) is checked on reading only.
+/// JSON Schema, draft 2020-12. Rules that it cannot express (a material must exist, a matrix must
+/// be invertible, ...) are checked only when a file is read.
 Json scene_schema();
 
 /// The part for meshes.

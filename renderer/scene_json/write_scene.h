@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene as a scene file: what parse_scene makes the same scene of, bit for bit. Hulls are written
-// with their points, so that the file stands alone.
+// Writes a scene as a scene file, which parse_scene reads back bit for bit. Hulls are written with
+// their points, so the file needs no mesh files.
 #pragma once
 
 #include <string>

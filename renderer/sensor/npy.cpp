@@ -37,7 +37,7 @@ std::vector<double> transposed(const std::vector<double>& columns, std::size_t r
 }
 
 NpyArray parse(const std::string& bytes) {
-  if (!bytes.starts_with(magic) || bytes.size() < 12) throw BadInput("is no .npy file");
+  if (!bytes.starts_with(magic) || bytes.size() < 12) throw BadInput("not an .npy file");
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[i]); };
   const int major = byte(6);
   const std::size_t start = major == 1 ? 10 : 12;
@@ -46,7 +46,7 @@ NpyArray parse(const std::string& bytes) {
                                  : byte(8) | std::size_t{byte(9)} << 8 |
                                        std::size_t{byte(10)} << 16 | std::size_t{byte(11)} << 24;
   if (major > 3 || length > longest_header || start + length > bytes.size())
-    throw BadInput("is a .npy file of an unknown kind, or is cut off");
+    throw BadInput("is an .npy file of an unknown kind, or truncated");
   const std::string_view header(bytes.data() + start, length);
   const std::string_view kind = after(header, "descr");
   const bool is_double = kind.starts_with("'<f8'"), is_float = kind.starts_with("'<f4'");

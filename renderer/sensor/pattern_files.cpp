@@ -26,8 +26,8 @@ SensorRays rays_of_csv(const std::string& file, double) {
              zenith = table.column("zenith"), elevation = table.column("elevation");
   if (!azimuth || zenith.has_value() == elevation.has_value())
     mistakes.add(
-        "line 1: must name the columns azimuth and zenith (or elevation), in degrees, and time, in "
-        "seconds, if there is one");
+        "line 1: must name the columns azimuth and zenith (or elevation) in degrees, and "
+        "optionally time in seconds");
   if (table.rows() == 0) mistakes.add("must have rays");
   throw_if_any(mistakes);
   SensorRays rays;

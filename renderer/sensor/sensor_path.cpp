@@ -41,7 +41,7 @@ MovingFrame read_sensor_path(const std::string& file) {
       for (double& entry : key.rotate) entry /= std::sqrt(square);
     }
     if (!path.motion->keys.empty() && !(key.time > path.motion->keys.back().time))
-      mistakes.add("pose " + std::to_string(row) + ": times must rise");
+      mistakes.add("pose " + std::to_string(row) + ": times must increase");
     path.motion->keys.push_back(key);
     if (mistakes.messages().size() >= 20) break;
   }

@@ -80,10 +80,10 @@ bool Checkpoint::exists() const {
 void Checkpoint::check_replaceable() const {
   if (!exists()) return;
   std::error_code error;
-  const std::string remedy = "; it would be replaced by the picture's checkpoint: move it away";
+  const std::string remedy = "; the checkpoint would replace it: move it away";
   if (!std::filesystem::is_regular_file(path_, error))
-    throw CannotWrite(path_ + ": is no file" + remedy);
-  if (!is_exr(path_)) throw CannotWrite(path_ + ": is no checkpoint" + remedy);
+    throw CannotWrite(path_ + ": not a file" + remedy);
+  if (!is_exr(path_)) throw CannotWrite(path_ + ": not a checkpoint" + remedy);
 }
 
 RenderJournal Checkpoint::load() {

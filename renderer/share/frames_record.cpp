@@ -41,7 +41,7 @@ Content read(const std::string& path) {
   const Json* facts = json ? json->find("facts") : nullptr;
   const Json* frames = json ? json->find("frames") : nullptr;
   if (facts == nullptr || !facts->is_object() || frames == nullptr || !frames->is_array())
-    throw BadInput(path + ": is no record of frames");
+    throw BadInput(path + ": not a record of frames");
   Content content;
   for (const auto& [name, value] : facts->members())
     if (value.is_string()) content.facts[name] = value.text();
@@ -69,7 +69,7 @@ FramesRecord::FramesRecord(std::string path, Facts facts, bool resume)
     } catch (const BadInput& mistake) {
       const std::string what = mistake.what();
       if (resume) throw BadInput(what + "; remove it, or render without --resume");
-      throw CannotWrite(what + "; it would be replaced by the frames' record: move it away");
+      throw CannotWrite(what + "; the record of frames would replace it: move it away");
     }
     const std::string differs = differences(found.facts, facts_);
     if (resume && !differs.empty())

@@ -30,7 +30,7 @@ std::string name_of(const PictureShare& held) {
 PictureShare picture_share_of(const Facts& facts) {
   const auto share = [&](const char* name) {
     const std::string text = text_of(facts, name);
-    if (text.empty()) throw BadInput("is no tile or share of a picture (minkray render --tile)");
+    if (text.empty()) throw BadInput("not a tile or share of a picture (minkray render --tile)");
     try {
       return parse_share(text, std::string("its header's ") + name);
     } catch (const WrongUsage& error) {

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Guarantees of a cast, checked with support points only, computed in long double from the same
-// shape. Everything is allowed the rounding of its own numbers, and no more:
-//
-// - a miss is proven by its plane: all of the ray that could meet the shape lies on its other side;
-// - a hit lies on a supporting plane that faces the ray: the ray does not enter the shape earlier;
-// - a hit and an origin that is inside lie in the shape: no plane that is found keeps it off;
-// - nothing is NaN, the normal is of unit length, t is in [0, t_max], the bounds are in order.
+// shape. Each check allows for the rounding of its own numbers only.
 #pragma once
 
 #include <string>
@@ -23,7 +18,11 @@ using Real = long double;
 /// For cancellation: a ray's far origin against the shape's own position.
 __extension__ using Quad = __float128;
 
-/// One shape and one ray; what all solvers answer to it is checked against the same facts.
+/// One shape and one ray; the results of all solvers are checked against the same facts:
+/// - a miss is proven by its plane: the ray, where it could hit, is on the plane's other side;
+/// - a hit lies on a supporting plane that faces the ray: the ray does not enter the shape before;
+/// - a hit, and an origin that is inside, lie in the shape: no separating plane is found;
+/// - nothing is NaN, the normal has unit length, t is in [0, t_max], the bounds are in order.
 template <class T>
 class CastReferee {
  public:

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A slow ray cast in long double, for shapes without a closed form: portal refinement (after
-// Snethen, "XenoCollide: Complex Collision Made Simple", 2008), projected along the ray.
-//
-// A portal is a triangle of points of the shape that the ray pierces: the hit is no later than
-// there. The supporting plane along the portal's normal touches the shape no later than the ray
-// enters it: the hit is no earlier. Its support point splits the portal in three, and the ray
-// pierces one of them. Shares nothing with the solvers; the support mapping is evaluated in long
-// double.
+// Slow ray cast in long double for shapes without a closed form: portal refinement (after Snethen,
+// "XenoCollide: Complex Collision Made Simple", 2008), projected along the ray. Shares no code with
+// the solvers; the support mapping is evaluated in long double.
 #pragma once
 
 #include <array>
@@ -27,6 +22,10 @@ struct PortalHit {
 };
 
 /// Finds where lines enter one shape.
+///
+/// A portal is a triangle of the shape's points that the ray passes through: the hit is no later.
+/// The hit is no earlier than the supporting plane along the portal's normal. The support point
+/// splits the portal in three triangles, and the ray passes through one of them.
 class PortalCast {
  public:
   explicit PortalCast(const Shape<double>& shape) : shape_(convert<Long>(shape)) {

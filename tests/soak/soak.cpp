@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Renders, scans and queries for the given time, in one process, by several threads at once, with
-// edits, cancelled calls and mistakes in between:
-//   minkray_soak SECONDS [leak|answer]
-// Every round makes the same scene, in which the same things move and are added; each kind of work
-// (work.h) is done in each of its states. Every round must give the bits of the first one, and the
-// resources of the process must stay the same. With the second word it has a fault, which it must
-// find: 16 KiB leaked each round, or a wrong answer in the last one. Exit codes: 0 all held, 1
-// not, 2 usage.
+// Renders, scans and queries for a time with several threads in one process, with edits, cancelled
+// calls and errors in between. Each round must give the bits of the first one, and resources must
+// not grow. Exit codes: 0 held, 1 not, 2 usage.
+//   minkray_soak SECONDS [leak|answer]   leak: leaks 16 KiB per round, which must be found;
+//                                        answer: a wrong result in the last round, likewise
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>

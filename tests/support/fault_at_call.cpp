@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: MIT
-// To be loaded before a program (LD_PRELOAD): counts its calls that write files, and at one of them
-// kills the program, or lets the call fail. Files of other kinds, stdout and stderr do not count.
-//
-//   MINKRAY_FAULT_AT=n     before the n-th call, counting from 1 ...
-//   MINKRAY_FAULT=number   ... the call fails with this errno; without it SIGKILL comes
-//   MINKRAY_FAULT_LOG=file gets a line for each call: its name, and the file's
-//
-// Calls that only remove files do not fail: nothing could be done about it.
-//
-// Not seen: what the C library calls within itself (fopen, fwrite, mkstemp), pwritev, truncate,
-// fallocate, sendfile, copy_file_range, mappings, system calls by number, and what makes folders
-// and links.
+// Fault injection by LD_PRELOAD: counts a program's calls that write regular files, and kills the
+// program before the n-th (from 1), or makes that call fail.
+//   MINKRAY_FAULT_AT=n, MINKRAY_FAULT=errno (without it: SIGKILL)
+//   MINKRAY_FAULT_LOG=file   gets one line per call: its name and its file
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -26,6 +18,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+
+// Not counted: stdout, stderr, calls within the C library (fopen, fwrite, mkstemp), pwritev,
+// truncate, fallocate, sendfile, copy_file_range, mappings, system calls by number, making folders
+// and links. Calls that only remove files never fail, since the program could do nothing about it.
 
 namespace {
 

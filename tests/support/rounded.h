@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rounding to float and back that does round. GCC 12 at -O2 drops the pair of conversions for two
-// neighbouring numbers of a struct (its vectoriser pairs them, and then sees the identity):
-//
-//   struct D { double x, y, z; };  struct F { float x, y, z; };
-//   D twice(const D& a) { F f{(float)a.x, (float)a.y, (float)a.z}; return {f.x, f.y, f.z}; }
-//
-// returns 0.7 for 0.7 in two of the three. A test that meant to repeat a query of float in double
-// made a different query. Across a call that is not inlined nothing is dropped.
+// Rounding of rays to float and back by functions that are not inlined. GCC 12 at -O2 drops such a
+// pair of conversions for two neighbouring numbers of a struct: 0.7 stays 0.7 in two of three.
 #pragma once
 
 #include "core/math/ray.h"

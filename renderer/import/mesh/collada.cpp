@@ -209,12 +209,13 @@ class Collada {
 
   void count_shown() {
     if (++shown_ > most_shown)
-      throw std::runtime_error("must show at most " + std::to_string(most_shown) +
-                               " nodes and meshes, each again where it is shown again");
+      throw std::runtime_error("must have at most " + std::to_string(most_shown) +
+                               " nodes and meshes, with repeated instances");
   }
 
   void add_node(const XmlElement& element, const Affine<double>& outer, int depth) {
-    if (depth > deepest_node) throw std::runtime_error("nodes are nested too deeply, or for ever");
+    if (depth > deepest_node)
+      throw std::runtime_error("nodes are nested too deeply, or in a cycle");
     count_shown();
     const Node& node = node_of(element);
     const Affine<double> pose = outer * node.pose;
@@ -243,7 +244,7 @@ class Collada {
     for (const auto& [numbers, begin, stride, count] : geometry.vertices) {
       const std::size_t first = mesh_.vertices.size();
       if (first + count > most_)
-        throw std::runtime_error("must show at most " + std::to_string(most_) + " vertices, of " +
+        throw std::runtime_error("must have at most " + std::to_string(most_) + " vertices, of " +
                                  std::to_string(numbers_) + " numbers in the file (got " +
                                  std::to_string(first + count) + ")");
       for (std::size_t i = 0; i < count; ++i) {
@@ -284,10 +285,10 @@ class Collada {
 
   void count_triangles(const Geometry& geometry, std::size_t vertices) {
     if (geometry.faces.corners_end > vertices)
-      throw std::runtime_error("a <p> names a vertex that is not there");
+      throw std::runtime_error("a <p> refers to a missing vertex");
     triangles_ += geometry.faces.triangles.size();
     if (triangles_ > most_triangles_of_vertex * most_)
-      throw std::runtime_error("must show at most " +
+      throw std::runtime_error("must have at most " +
                                std::to_string(most_triangles_of_vertex * most_) +
                                " triangles (got " + std::to_string(triangles_) + ")");
   }
@@ -368,7 +369,7 @@ MeshContent read_collada(const std::filesystem::path& file, MeshSplit split, Mes
   XmlFiles files(mistakes);
   MeshContent content;
   if (const auto root = files.read(file, most_collada_bytes)) {
-    if (root->name != "COLLADA") throw std::runtime_error("is no COLLADA file");
+    if (root->name != "COLLADA") throw std::runtime_error("not a COLLADA file");
     content = Collada(*root, files, split, detail, file.parent_path()).read();
   }
   if (!mistakes.none()) {

@@ -127,7 +127,7 @@ class FacesReader {
     std::vector<std::uint32_t> corners;
     for (std::size_t i = offset; i < p.size(); i += stride) {
       if (!(p[i] >= 0 && p[i] < static_cast<double>(most_collada_vertices)))
-        throw std::runtime_error("a <p> names a vertex that is not there");
+        throw std::runtime_error("a <p> refers to a missing vertex");
       corners.push_back(static_cast<std::uint32_t>(p[i]));
       made_.corners_end = std::max<std::size_t>(made_.corners_end, corners.back() + 1);
     }

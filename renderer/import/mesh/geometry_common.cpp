@@ -129,19 +129,18 @@ void tell_missing_meshes(Model& model, XmlFiles& files, const ImportOptions& opt
                           : options.geometry == GeometryChoice::collision
                               ? mesh.collides
                               : mesh.is_seen || !any_is_seen;
-    if (!is_asked) model.pass_over("<mesh>", "its file is missing, and is of no shape asked for");
+    if (!is_asked) model.pass_over("<mesh>", "file missing (not needed with this --geometry)");
     return !is_asked;
   });
   if (missing.empty()) return;
   if (options.verbose || missing.size() == 1)
     for (const XmlFiles::MissingMesh& mesh : missing) files.wrong(mesh.element, mesh.complaint);
   else
-    files.wrong(missing.front().element, missing.front().complaint + ", nor are " +
+    files.wrong(missing.front().element, missing.front().complaint + "; " +
                                              std::to_string(missing.size() - 1) +
-                                             " other meshes (--verbose lists them)");
-  files.mistakes().add(
-      "missing meshes: " + std::to_string(missing.size()) +
-      "; --package-dir says where packages are, --skip-missing-meshes leaves them out");
+                                             " other meshes not found (--verbose lists them)");
+  files.mistakes().add("missing meshes: " + std::to_string(missing.size()) +
+                       "; set --package-dir, or use --skip-missing-meshes");
 }
 
 void add_mesh(Model& model, XmlFiles& files, const XmlElement& element,

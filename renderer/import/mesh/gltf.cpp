@@ -53,19 +53,19 @@ class GltfReader {
       for (auto child = children.rbegin(); child != children.rend(); ++child)
         open.push_back({*child, link, in_world});
     }
-    for (const auto& [list, why] : {std::pair{"animations", "nodes stand at rest"},
-                                    {"cameras", "is no shape of the scene"},
-                                    {"skins", "meshes stand at rest, unbent"}})
+    for (const auto& [list, why] : {std::pair{"animations", "ignored, nodes keep their pose"},
+                                    {"cameras", "not a shape"},
+                                    {"skins", "ignored, meshes keep their shape"}})
       if (const std::size_t count = document_.count(list); count > 0)
         model_.pass_over(list, why, count);
     for (const std::string& name : document_.unread_extensions())
-      model_.pass_over("extension " + printable(name, 60), "is not read");
+      model_.pass_over("extension " + printable(name, 60), "not supported");
     if (meshes_.left_out() > 0)
       model_.pass_over("primitives", "are points or lines", meshes_.left_out());
     for (const auto& [why, count] : meshes_.looks().colours_left_out())
       model_.pass_over("colours of vertices", why, count);
     if (model_.links.empty() && document_.mistakes().none())
-      document_.mistakes().add(JsonPath() / "nodes", "must have nodes that are shown");
+      document_.mistakes().add(JsonPath() / "nodes", "must have visible nodes");
     library_.hand_over(model_);
     model_.hash += document_.hash_text();
     const std::vector<std::filesystem::path>& files = document_.files();
@@ -97,7 +97,7 @@ class GltfReader {
     if (!mesh && !collider) return;
     const double volume = std::abs(in_world.linear.determinant());
     if (!(volume > 0) || !std::isfinite(volume) || !in_world.linear.inverse().allFinite())
-      return model_.pass_over("nodes", "have a scale of zero: they are not shown");
+      return model_.pass_over("nodes", "have a scale of zero: skipped");
     if (mesh) {
       ModelGeom geom;
       geom.link = link;
@@ -109,15 +109,15 @@ class GltfReader {
         geom.pose = pose * instance;
         const double size = std::abs(instance.linear.determinant());
         if (!(size > 0) || !std::isfinite(size)) {
-          model_.pass_over("instances", "have a scale of zero: they are not shown");
+          model_.pass_over("instances", "have a scale of zero: skipped");
           continue;
         }
         if (!add_mesh_geoms(gltf_mesh_use(document_, *mesh, node), geom, path / "mesh")) break;
       }
     }
     if (collider) add_collider(*collider, path / "extensions" / physics / "collider", link);
-    if (physics_of(node, "trigger")) model_.pass_over("triggers", "are no bodies");
-    if (physics_of(node, "joint")) model_.pass_over("joints", "nodes stand at rest");
+    if (physics_of(node, "trigger")) model_.pass_over("triggers", "not bodies");
+    if (physics_of(node, "joint")) model_.pass_over("joints", "ignored, nodes keep their pose");
   }
 
   const MeshLibrary::Answer& parts_of(const GltfMeshUse& use) {
@@ -261,7 +261,7 @@ MeshContent read_gltf_content(const std::filesystem::path& file, MeshSplit split
   if (detail == MeshDetail::vertices) all.triangles.clear();
   looks.files = document.files();
   for (const std::string& name : document.unread_extensions())
-    looks.notes.push_back("extension " + printable(name, 60) + " is not read");
+    looks.notes.push_back("extension " + printable(name, 60) + " not supported");
   return {std::move(all), std::move(looks), std::move(materials)};
 }
 

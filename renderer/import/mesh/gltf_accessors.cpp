@@ -102,7 +102,7 @@ bool GltfDocument::find(const Json& object, const JsonPath& path, std::size_t co
   const auto view_index = index(object, path, "bufferView", "bufferViews");
   if (!view_index) {
     if (!object.contains("bufferView"))
-      mistakes_.add(path, "must have a \"bufferView\" (compressed meshes are not read)");
+      mistakes_.add(path, "must have a \"bufferView\" (compressed meshes are not supported)");
     return false;
   }
   const Json& view = item("bufferViews", *view_index);
@@ -168,7 +168,7 @@ std::optional<std::vector<double>> GltfDocument::numbers(std::size_t accessor,
   const bool normalized = flag && flag->is_boolean() && flag->get<bool>();
   const bool is_sparse = json.contains("sparse");
   if (!json.contains("bufferView") && count > most_zeros) {
-    mistakes_.add(path, "must have a \"bufferView\" for so many numbers");
+    mistakes_.add(path, "must have a \"bufferView\" for this many numbers");
     return std::nullopt;
   }
   Source source;

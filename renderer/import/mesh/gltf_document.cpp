@@ -70,7 +70,7 @@ GltfDocument::GltfDocument(std::string bytes, std::filesystem::path file, Mistak
   const Json* asset = root_->is_object() ? root_->find("asset") : nullptr;
   const Json* version = asset && asset->is_object() ? asset->find("version") : nullptr;
   if (!version || !version->is_string() || !version->text().starts_with("2")) {
-    mistakes_.add(JsonPath() / "asset" / "version", "must be \"2.0\": glTF 1 is not read");
+    mistakes_.add(JsonPath() / "asset" / "version", "must be \"2.0\": glTF 1 is not supported");
     root_.reset();
     return;
   }
@@ -87,7 +87,7 @@ bool GltfDocument::open_binary() {
   }
   if (word_at(bytes, 8) != bytes.size()) {
     mistakes_.add("must have the " + std::to_string(word_at(bytes, 8)) +
-                  " bytes that its header says (got " + std::to_string(bytes.size()) + ")");
+                  " bytes given by its header (got " + std::to_string(bytes.size()) + ")");
     return false;
   }
   constexpr std::uint32_t json_chunk = 0x4e4f534a, binary_chunk = 0x004e4942;
@@ -95,7 +95,7 @@ bool GltfDocument::open_binary() {
     const std::size_t length = word_at(bytes, at);
     const std::uint32_t type = word_at(bytes, at + 4);
     if (length > bytes.size() - at - 8) {
-      mistakes_.add("has a chunk that is cut off");
+      mistakes_.add("has a truncated chunk");
       return false;
     }
     const std::string_view chunk = bytes.substr(at + 8, length);
@@ -106,7 +106,7 @@ bool GltfDocument::open_binary() {
     }
     at += 8 + (length + 3) / 4 * 4;
   }
-  if (json_text_.empty()) mistakes_.add("has no JSON in it");
+  if (json_text_.empty()) mistakes_.add("contains no JSON");
   return !json_text_.empty();
 }
 
@@ -119,7 +119,7 @@ void GltfDocument::check_extensions() {
     const std::string name = one.get<std::string>();
     if (!is_read(name) && !is_about_looks(name))
       mistakes_.add(JsonPath() / "extensionsRequired" / i,
-                    "the extension " + printable(name, 60) + " is not read");
+                    "the extension " + printable(name, 60) + " is not supported");
   }
 }
 
@@ -199,14 +199,13 @@ std::optional<std::string> GltfDocument::read_uri(const std::string& uri, const 
 std::optional<std::filesystem::path> GltfDocument::file_of_uri(const std::string& uri,
                                                                const JsonPath& path) {
   if (uri.find("://") != uri.npos) {
-    mistakes_.add(path, "must be a file beside this one or data (" + printable(uri, 100) + ")");
+    mistakes_.add(path, "must be a file in the same folder or data (" + printable(uri, 100) + ")");
     return std::nullopt;
   }
   const std::filesystem::path name = percent_decoded(uri);
-  // A buffer may be any bytes: what somebody's file names is not read out of other folders.
+  // A buffer may be any bytes: what somebody's file names is not supported out of other folders.
   if (name.is_absolute() || std::ranges::find(name, std::filesystem::path("..")) != name.end()) {
-    mistakes_.add(path, "must be a file beside this one, or in a folder beside it (" +
-                            printable(uri, 100) + ")");
+    mistakes_.add(path, "must be a file in the same folder or below (" + printable(uri, 100) + ")");
     return std::nullopt;
   }
   return file_.parent_path() / name;

@@ -246,7 +246,7 @@ bool GltfMeshes::has_too_many(std::size_t vertices) {
       most_gltf_vertices, most_shown_vertices(document_.bytes_of_buffers() / bytes_of_number));
   if (vertices <= most) return false;
   document_.mistakes().add(JsonPath() / "meshes",
-                           "must show at most " + std::to_string(most) + " vertices, of " +
+                           "must have at most " + std::to_string(most) + " vertices, of " +
                                std::to_string(document_.bytes_of_buffers()) +
                                " bytes of buffers (got " + std::to_string(vertices) + ")");
   return true;
@@ -309,7 +309,7 @@ void GltfMeshes::add_shown(std::span<const std::size_t> nodes, const Affine<doub
     open.pop_back();
     const JsonPath path = JsonPath() / "nodes" / at.node;
     if (++visits > document_.count("nodes"))
-      return document_.mistakes().add(path, "must not be below itself");
+      return document_.mistakes().add(path, "must not contain itself");
     if (const std::size_t most = most_gltf_visits + document_.count("nodes"); ++visits_ > most)
       return document_.mistakes().add(
           path, "must not be below so many colliders' nodes: with it, more than " +

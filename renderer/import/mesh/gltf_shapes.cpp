@@ -93,7 +93,7 @@ std::optional<GltfShape> gltf_shape(GltfDocument& document, const Json& number,
                                                      : Shape<double>(Frustum<double>{radii, half}));
   } else if (*kind == "plane") {
     if (sizes.has("sizeX") || sizes.has("sizeZ")) {
-      mistakes.add(path / *kind, "planes of a finite size are not read");
+      mistakes.add(path / *kind, "planes of finite size are not supported");
       return std::nullopt;
     }
     shape = {"plane", std::nullopt, z_to_y()};

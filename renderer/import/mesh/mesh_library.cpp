@@ -235,7 +235,7 @@ void take_looks(const MeshContent& content, MeshSplit split, MeshLibrary::Answer
   });
   if (const std::size_t count = colour_count(looks); count > 1 && !by_part && !by_triangle)
     answer.notes.push_back("has " + std::to_string(count) +
-                           " colours: that of most of its faces is shown (--split groups)");
+                           " colours: the most frequent one is used (or use --split groups)");
 }
 
 void look_also_in(const std::vector<std::filesystem::path>& folders, const std::string& uri,
@@ -281,11 +281,11 @@ const MeshLibrary::Answer& MeshLibrary::parts_of(
         if (!file && std::filesystem::is_regular_file(other, error)) file = other;
       }
     }
-    if (file) title += " (there as " + file->filename().string() + ")";
+    if (file) title += " (found as " + file->filename().string() + ")";
   }
   if (!file) {
     answer.is_missing = true;
-    answer.complaint = "the mesh \"" + printable(uri, 100) + "\" is not there (looked for ";
+    answer.complaint = "the mesh \"" + printable(uri, 100) + "\" not found (searched: ";
     answer.complaint += list_of_places(looked_for) + ")";
     return made_[key] = answer;
   }
@@ -309,7 +309,7 @@ const MeshLibrary::Answer& MeshLibrary::parts_of(
     } else {
       content = read(*file, *format, split);
       if (!submesh.name.empty())
-        note = "has no part \"" + printable(submesh.name, 60) + "\": all of it is shown";
+        note = "has no part \"" + printable(submesh.name, 60) + "\": the whole mesh is used";
     }
   } catch (const std::exception& error) {
     answer.complaint = "the mesh " + printable(file->string(), 160) + ": " + what_of(error);
@@ -319,9 +319,8 @@ const MeshLibrary::Answer& MeshLibrary::parts_of(
   const std::size_t most = std::max(most_rescaled_vertices, most_scales * read_vertices_);
   if (shown_vertices_ > most) {
     answer.complaint = "the mesh \"" + printable(title, 100) + "\": with the meshes before, each " +
-                       "once for each of its scales, hulls are made of at most " +
-                       std::to_string(most) + " vertices (got " + std::to_string(shown_vertices_) +
-                       ")";
+                       "once per scale, hulls must have at most " + std::to_string(most) +
+                       " vertices (got " + std::to_string(shown_vertices_) + ")";
     return made_[key] = answer;
   }
   answer = add(content.mesh, scale, title);
@@ -369,7 +368,7 @@ MeshLibrary::Answer MeshLibrary::add(const MeshParts& mesh, const Vec3<double>& 
       facts.parts.push_back({{}, hull, std::move(vertices)});
       part.hull = Hull<double>{std::move(hull)};
       if (options_->meshes == MeshChoice::exact)
-        answer.notes.emplace_back("has no triangles: its hull is shown");
+        answer.notes.emplace_back("has no triangles: its hull is used");
     }
     answer.parts.push_back(std::move(part));
   };

@@ -53,8 +53,7 @@ MeshParts read_msh(const std::filesystem::path& file, MeshSplit split, MeshDetai
       for (std::size_t k = 0; k < 3; ++k) {
         triangle[k] = word(bytes, first + 3 * i + k);
         if (triangle[k] >= vertices)
-          throw std::runtime_error("face " + std::to_string(i) +
-                                   " names a vertex that is not there");
+          throw std::runtime_error("face " + std::to_string(i) + " refers to a missing vertex");
       }
       triangles.push_back(triangle);
     }

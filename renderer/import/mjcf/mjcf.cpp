@@ -101,10 +101,9 @@ class MjcfReader {
                                                 "actuator", "sensor",   "extension"};
     if (is_newer(section, model_, files_, options_)) return;
     if (!known.contains(section.name))
-      files_.wrong(section, "is no section of MJCF (is it a file to be included?)");
+      files_.wrong(section, "not a section of MJCF (is it a file to be included?)");
     else if (!section.children.empty())
-      model_.pass_over("<" + section.name + ">", "has no shape of its own",
-                       section.children.size());
+      model_.pass_over("<" + section.name + ">", "has no shape", section.children.size());
   }
 
   /// A pose in the link's frame, of one that the file gives in the link's or the world's.
@@ -151,13 +150,12 @@ class MjcfReader {
       } else if (is_newer(child, model_, files_, options_)) {
         continue;
       } else if (child.name == "plugin") {
-        model_.pass_over("<plugin>", "has no shape of its own");
+        model_.pass_over("<plugin>", "has no shape");
       } else if (child.name == "site" || child.name == "camera" || child.name == "light" ||
                  child.name == "inertial") {
-        if (child.name != "inertial")
-          model_.pass_over("<" + child.name + ">", "is no shape of the scene");
+        if (child.name != "inertial") model_.pass_over("<" + child.name + ">", "not a shape");
       } else {
-        files_.wrong(child, "is no element of a body");
+        files_.wrong(child, "not an element of a body");
       }
     }
   }
@@ -206,8 +204,7 @@ class MjcfReader {
     const auto& models = source_->assets.models();
     const auto asset = models.find(name);
     if (asset == models.end()) {
-      files_.wrong(attach,
-                   "model: there is no <model> of the name \"" + printable(name, 60) + "\"");
+      files_.wrong(attach, "model: no <model> is named \"" + printable(name, 60) + "\"");
       return nullptr;
     }
     const auto [known, is_new] = attached_.try_emplace(&asset->second, nullptr);
@@ -219,8 +216,7 @@ class MjcfReader {
       found = files_.files()[asset->second.file].parent_path() / file;
     auto root = files_.read(found);
     if (root && root->name != "mujoco") {
-      files_.wrong(asset->second,
-                   "must be a file of MJCF (got <" + printable(root->name, 40) + ">)");
+      files_.wrong(asset->second, "must be an MJCF file (got <" + printable(root->name, 40) + ">)");
       root.reset();
     }
     if (root) known->second = open(std::move(*root));
@@ -230,7 +226,7 @@ class MjcfReader {
   /// A body, a frame or all of another model, under a prefix of all its names.
   void read_attachment(const XmlElement& attach, const Around& around) {
     if (depth_ > deepest_attachment || ++attachments_ > most_attachments)
-      return files_.wrong(attach, "models are attached to each other too often, or for ever");
+      return files_.wrong(attach, "models are attached to each other too often, or in a cycle");
     const std::string* name = attach.attribute("model");
     Source* const from = name ? source_of(attach, *name) : source_;
     if (!from) return;
@@ -253,7 +249,7 @@ class MjcfReader {
     source_ = outer;
     --depth_;
     if (!part && (body || frame))
-      files_.wrong(attach, std::string(body ? "body" : "frame") + ": there is none of the name \"" +
+      files_.wrong(attach, std::string(body ? "body" : "frame") + ": none is named \"" +
                                printable(body ? *body : *frame, 60) + "\" in the model");
   }
 
@@ -287,8 +283,7 @@ class MjcfReader {
     if (const std::string* own = body.attribute("childclass")) {
       inner.child_class = *own;
       if (!source_->defaults.has(*own))
-        files_.wrong(
-            body, "childclass: there are no defaults of the class \"" + printable(*own, 60) + "\"");
+        files_.wrong(body, "childclass: no defaults for class \"" + printable(*own, 60) + "\"");
     }
     model_.links.push_back({around.named(body), around.link, rest});
     follow_rests();
@@ -300,9 +295,8 @@ class MjcfReader {
   void place_by_mass(const XmlElement& body, int link) {
     const auto frame = masses_.end(link);
     if (!frame)
-      return files_.wrong(body,
-                          "pos: missing, and there are no geoms with a mass to tell it by, where "
-                          "coordinate is \"global\"");
+      return files_.wrong(
+          body, "pos: missing (required with coordinate=\"global\" unless geoms have a mass)");
     move_frame(model_, link, *frame);
     rest_in_world_[static_cast<std::size_t>(link)] =
         rest_in_world_[static_cast<std::size_t>(link)] * *frame;

@@ -61,9 +61,8 @@ void MjcfAssets::read(const XmlElement& assets, const MjcfDefaults& defaults) {
       if (name.empty()) files_.wrong(written, "must have a name or a file");
       // As in MuJoCo: for a mesh, defaults set the scale only.
       if (asset.attribute("vertex") && !written.attribute("vertex"))
-        files_.wrong(written, "vertex: must stand in the <mesh> itself, not in its defaults");
-      if (!mesh_assets_.emplace(name, asset).second)
-        files_.wrong(written, "name: must not be the name of two meshes");
+        files_.wrong(written, "vertex: must be in the <mesh> itself, not in its defaults");
+      if (!mesh_assets_.emplace(name, asset).second) files_.wrong(written, "name: duplicate mesh");
     } else if (asset.name == "hfield") {
       std::string name = asset.attribute_or("name");
       if (name.empty()) name = std::filesystem::path(asset.attribute_or("file")).stem().string();
@@ -83,7 +82,7 @@ void MjcfAssets::read(const XmlElement& assets, const MjcfDefaults& defaults) {
       materials_[asset.attribute_or("name")] = rgba;
     } else {
       model_.pass_over("<" + printable(asset.name, 40) + ">",
-                       asset.name == "texture" ? "surfaces have one colour" : "is no convex shape");
+                       asset.name == "texture" ? "surfaces have one colour" : "not a convex shape");
     }
   }
 }
@@ -104,7 +103,7 @@ const MeshLibrary::Answer* MjcfAssets::mesh_of(const XmlElement& written, const 
   const std::string name = e.attribute_or("mesh");
   const auto found = mesh_assets_.find(name);
   if (found == mesh_assets_.end()) {
-    files_.wrong(written, "mesh: there is no <mesh> of the name \"" + printable(name, 60) + "\"");
+    files_.wrong(written, "mesh: no <mesh> is named \"" + printable(name, 60) + "\"");
     return nullptr;
   }
   const auto [at, is_new] = made_.try_emplace(name);
@@ -229,8 +228,7 @@ void MjcfAssets::add_height_field(const XmlElement& written, const XmlElement& e
   const std::string name = e.attribute_or("hfield");
   const auto found = height_fields_.find(name);
   if (found == height_fields_.end())
-    return files_.wrong(written,
-                        "hfield: there is no <hfield> of the name \"" + printable(name, 60) + "\"");
+    return files_.wrong(written, "hfield: no <hfield> is named \"" + printable(name, 60) + "\"");
   const XmlElement& asset = found->second;
   const auto [at, is_new] = terrains_.try_emplace(name);
   if (is_new)

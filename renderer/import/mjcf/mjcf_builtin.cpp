@@ -143,7 +143,7 @@ std::vector<Vec3<double>> builtin_mesh(const std::string& name, std::span<const 
     points = supertorus(whole(0), params[1], params[2], params[3]);
   } else if (name == "cone") {
     if (params.size() != 2 || !count(0, 3, most_corners) || params[1] < 0)
-      wrong(name, "from 3 corners on and a radius >= 0 of the top");
+      wrong(name, "at least 3 corners and a top radius >= 0");
     points = cone(whole(0), params[1]);
   } else if (name == "plate") {
     if (params.size() != 2 || !count(0, 1, most_rings) || !count(1, 1, most_rings))

@@ -18,7 +18,7 @@ class Composite {
       : model_(model), plan_(std::move(plan)), element_(element), files_(files) {}
 
   void add(int body) {
-    if (plan_.hides_skin) model_.pass_over("<composite><skin>", "is no convex shape");
+    if (plan_.hides_skin) model_.pass_over("<composite><skin>", "not a convex shape");
     if (plan_.type == "particle")
       add_particles(body);
     else if (plan_.type == "grid")
@@ -101,8 +101,8 @@ class Composite {
         is_cloth ? std::sscanf(rest, "%d_%d", &ox, &oy) == 2 : std::sscanf(rest, "%d", &ox) == 1;
     if (begins && reads && ox >= 0 && ox < plan_.count[0] && oy >= 0 && oy < plan_.count[1])
       return true;
-    files_.wrong(element_, "must be in a body whose name begins with \"" + start +
-                               "\" and goes on with its place in the " + plan_.type +
+    files_.wrong(element_, "must be in a body whose name starts with \"" + start +
+                               "\", followed by its position in the " + plan_.type +
                                (is_cloth ? ", such as B0_0" : ", such as B0"));
     return false;
   }

@@ -49,7 +49,7 @@ class PlanReader {
 
   bool read_pin(const XmlElement& pin) {
     const auto at = files_.numbers(pin, "coord", 1, 2);
-    if (!at) return pin.attribute("coord") ? false : wrong(pin, "coord: must be there");
+    if (!at) return pin.attribute("coord") ? false : wrong(pin, "coord: missing");
     for (const double place : *at)
       if (!(place >= 0 && place <= most_composite_elements) || place != std::floor(place))
         return wrong(pin, "coord: must be whole numbers from 0 to 100,000 (got \"" +
@@ -62,7 +62,7 @@ class PlanReader {
   bool read_counts() {
     const auto counts = files_.numbers(element_, "count", 1, 3);
     const auto spacing = files_.number(element_, "spacing");
-    if (!counts || !spacing) return wrong(element_, "count and spacing: must be there");
+    if (!counts || !spacing) return wrong(element_, "count and spacing: missing");
     plan_.spacing = *spacing;
     double product = 1;
     int dimensions = 0;
@@ -70,13 +70,13 @@ class PlanReader {
     for (std::size_t i = 0; i < counts->size(); ++i) {
       const double count = (*counts)[i];
       if (!(count >= 1 && count <= most_composite_elements) || count != std::floor(count))
-        return wrong(element_, "count: must be whole numbers from 1 on");
+        return wrong(element_, "count: must be whole numbers >= 1");
       if (count > 1 && dimensions < static_cast<int>(i)) is_ordered = false;
       dimensions += count > 1 ? 1 : 0;
       plan_.count[i] = static_cast<int>(count);
       product *= count;
     }
-    if (!is_ordered) return wrong(element_, "count: ones must come last");
+    if (!is_ordered) return wrong(element_, "count: values of 1 must come last");
     if (product > most_composite_elements)
       return wrong(element_, "count: at most 100,000 elements");
     if (!(plan_.spacing > 0)) return wrong(element_, "spacing: must be > 0");
@@ -90,7 +90,7 @@ class PlanReader {
 
   bool read_geom(const std::function<std::array<double, 4>(const XmlElement&)>& colour_of) {
     const XmlElement* geom = element_.child("geom");
-    if (!geom) return wrong(element_, "geom: must be there");
+    if (!geom) return wrong(element_, "geom: missing");
     const std::string& type = plan_.type;
     std::string kind = geom->attribute_or("type", "sphere");
     if (type == "particle" || type == "grid") kind = "sphere";
@@ -108,7 +108,7 @@ class PlanReader {
     // With a skin, the shapes are those it hides.
     plan_.hides_skin = element_.child("skin") && type != "particle" && type != "rope" &&
                        type != "loop" && !(type == "grid" && plan_.count[1] == 1);
-    // A skin itself is no convex shape: what it covers is shown in its place.
+    // A skin itself not a convex shape: what it covers is shown in its place.
     plan_.geom.is_seen = files_.number(*geom, "group").value_or(0) < 3;
     const auto flag = [&](const char* key, double otherwise) {
       return files_.number(*geom, key).value_or(otherwise) != 0;

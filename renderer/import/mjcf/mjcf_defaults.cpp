@@ -34,7 +34,7 @@ class Includes {
   void expand(XmlElement& element, int depth, int nesting) {
     if (nesting > deepest_nesting) {
       files_.wrong(element, "elements must be nested at most " + std::to_string(deepest_nesting) +
-                                " deep, with the files that are included");
+                                " deep, including included files");
       element.children.clear();
     }
     std::vector<XmlElement> children;
@@ -46,7 +46,7 @@ class Includes {
       }
       const std::string* name = child.attribute("file");
       if (!name) {
-        files_.wrong(child, "file: must be there");
+        files_.wrong(child, "file: missing");
         continue;
       }
       // Next to the first file, or next to the one that includes it.
@@ -56,7 +56,7 @@ class Includes {
       if (!std::filesystem::exists(file, error) && std::filesystem::exists(beside, error))
         file = beside;
       if (depth >= deepest_include || !seen_.insert(whole(file)).second) {
-        files_.wrong(child, "the file must not be included twice, nor include itself");
+        files_.wrong(child, "the file must not be included twice or include itself");
         continue;
       }
       std::optional<XmlElement> root = files_.read(file);
@@ -146,7 +146,7 @@ void expand_includes(XmlElement& root, XmlFiles& files) {
 bool MjcfDefaults::takes(std::size_t bytes, const XmlElement& element, XmlFiles& files) {
   if (bytes_ <= most_bytes_of_classes && bytes_ + bytes > most_bytes_of_classes)
     files.wrong(element, "all classes must hold at most " + std::to_string(most_bytes_of_classes) +
-                             " bytes, with what each has from those around it (got " +
+                             " bytes, including inherited ones (got " +
                              std::to_string(bytes_ + bytes) + " up to here)");
   bytes_ += bytes;
   return bytes_ <= most_bytes_of_classes;
@@ -155,7 +155,7 @@ bool MjcfDefaults::takes(std::size_t bytes, const XmlElement& element, XmlFiles&
 void MjcfDefaults::read(const XmlElement& element, XmlFiles& files, const std::string& parent) {
   std::string name = element.attribute_or("class");
   if (name.empty()) {
-    if (!parent.empty()) files.wrong(element, "class: must be there");
+    if (!parent.empty()) files.wrong(element, "class: missing");
     name = main_class;
   }
   if (!classes_.contains(name)) {
@@ -175,11 +175,10 @@ void MjcfDefaults::read(const XmlElement& element, XmlFiles& files, const std::s
     merge(attributes, known);
     const std::size_t bytes = bytes_of(attributes);
     if (attributes.size() > most_xml_attributes || bytes > most_default_bytes) {
-      files.wrong(child, "must have at most " + std::to_string(most_xml_attributes) +
-                             " attributes of " + std::to_string(most_default_bytes) +
-                             " bytes, with those of the classes around it (got " +
-                             std::to_string(attributes.size()) + " of " + std::to_string(bytes) +
-                             ")");
+      files.wrong(
+          child, "must have at most " + std::to_string(most_xml_attributes) + " attributes of " +
+                     std::to_string(most_default_bytes) + " bytes, including inherited ones (got " +
+                     std::to_string(attributes.size()) + " of " + std::to_string(bytes) + ")");
       continue;
     }
     if (!takes(memory_of(attributes), child, files)) return;
@@ -198,8 +197,7 @@ XmlElement MjcfDefaults::with_defaults(const XmlElement& element, const std::str
   merged.file = element.file;
   std::string name = element.attribute_or("class");
   if (!name.empty() && !classes_.contains(name) && name != main_class)
-    files.wrong(element,
-                "class: there are no defaults of the class \"" + printable(name, 60) + "\"");
+    files.wrong(element, "class: no defaults for class \"" + printable(name, 60) + "\"");
   if (name.empty()) name = child_class.empty() ? main_class : child_class;
   const auto found = classes_.find(name);
   if (found == classes_.end()) return merged;

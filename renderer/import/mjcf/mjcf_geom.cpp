@@ -19,7 +19,7 @@ void add_mjcf_geom(const XmlElement& written, const XmlElement& e, ModelGeom geo
   geom.collides = contype != 0 || conaffinity != 0;
   geom.is_seen = in.files.number(e, "group").value_or(0) < 3 && geom.rgba[3] > 0;
   if (in.compiler.discards_visual() && !geom.collides)
-    return in.model.pass_over("<geom>", "the compiler discards what does not collide");
+    return in.model.pass_over("<geom>", "discarded by the compiler, since it does not collide");
   geom.pose = local(in.compiler.pose_in(e));
 
   std::vector<double> size = {0, 0, 0};

@@ -47,7 +47,7 @@ HeightGrid heights_of(
   const std::string name = asset.attribute_or("file");
   if (!name.empty()) {
     const auto file = find(name);
-    if (!file) throw std::runtime_error("file: \"" + printable(name, 100) + "\" is not there");
+    if (!file) throw std::runtime_error("file: \"" + printable(name, 100) + "\" not found");
     const std::string type = asset.attribute_or("content_type");
     try {
       return file->extension() == ".png" || type == "image/png" ? read_height_picture(*file)
@@ -59,7 +59,7 @@ HeightGrid heights_of(
   const double rows = files.number(asset, "nrow").value_or(0),
                columns = files.number(asset, "ncol").value_or(0);
   if (!(rows >= 2 && columns >= 2 && rows * columns <= double(most_points)))
-    throw std::runtime_error("nrow, ncol: must be at least 2, or there must be a file");
+    throw std::runtime_error("nrow, ncol: must be at least 2, unless there is a file");
   return written_heights(asset, files, static_cast<std::size_t>(rows),
                          static_cast<std::size_t>(columns));
 }

@@ -25,11 +25,11 @@ inline bool is_newer(const XmlElement& element, Model& model, XmlFiles& files,
   const auto newer = std::ranges::find(newer_elements, element.name, &NewerElement::name);
   if (newer == std::end(newer_elements)) return false;
   const std::string what =
-      "is of MuJoCo " + std::string(newer->version) + ": deformable bodies are not read";
+      "is of MuJoCo " + std::string(newer->version) + ": deformable bodies are not supported";
   if (options.lenient)
     model.pass_over("<" + element.name + ">", what);
   else
-    files.wrong(element, what + " (--lenient leaves them out)");
+    files.wrong(element, what + " (--lenient skips them)");
   return true;
 }
 

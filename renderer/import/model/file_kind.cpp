@@ -24,21 +24,21 @@ constexpr Signature signatures[] = {
     {"\x76\x2f\x31\x01", "a picture (OpenEXR)"},
     {"#?RADIANCE", "a picture (Radiance)"},
     {"BLENDER", "a Blender file: export it as glTF"},
-    {"\x28\xb5\x2f\xfd", "a compressed file (Zstandard; Blender saves so): export it as glTF"},
+    {"\x28\xb5\x2f\xfd", "a compressed file (Zstandard, as saved by Blender): export it as glTF"},
     {"\x1f\x8b", "a compressed file (gzip)"},
     {"PK\x03\x04", "an archive (ZIP)"},
     {"PXR-USDC", "a USD file: export it as glTF"},
     {"#usda", "a USD file: export it as glTF"},
     {"Kaydara FBX", "an FBX file: export it as glTF"},
     {"ply\n", "a mesh (PLY)"},
-    {"solid ", "a mesh (STL): a scene names it as a hull's \"file\""},
+    {"solid ", "a mesh (STL): use it as the \"file\" of a hull in a scene"},
     {"%PDF", "a PDF document"},
 };
 
 /// Formats without a signature.
 constexpr Signature endings[] = {
-    {".obj", "a mesh (OBJ): a scene names it as a hull's \"file\""},
-    {".stl", "a mesh (STL): a scene names it as a hull's \"file\""},
+    {".obj", "a mesh (OBJ): use it as the \"file\" of a hull in a scene"},
+    {".stl", "a mesh (STL): use it as the \"file\" of a hull in a scene"},
     {".yaml", "a YAML file"},
     {".yml", "a YAML file"},
     {".py", "a Python program"},

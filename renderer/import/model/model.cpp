@@ -93,7 +93,7 @@ void Model::pass_over(const std::string& what, const std::string& why, std::size
   if (passed_over.size() < most_kinds)
     passed_over.push_back({what, why, count});
   else if (passed_over.size() == most_kinds)
-    passed_over.push_back({"other things", "there are too many kinds to tell each", count});
+    passed_over.push_back({"other things", "too many kinds to list", count});
   else
     passed_over.back().count += count;
 }

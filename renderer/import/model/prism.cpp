@@ -135,7 +135,7 @@ class Decomposition {
         if ((first > 0) == (last > 0) || first == 0 || last == 0) continue;
         const double x = from + (to - from) * (first / (first - last));
         if (from < x && x < to) stops_.push_back(x);
-        if (stops_.size() > most_stops) throw std::runtime_error("must not cross itself so often");
+        if (stops_.size() > most_stops) throw std::runtime_error("must cross itself less often");
       }
   }
 

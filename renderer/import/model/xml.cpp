@@ -167,17 +167,17 @@ std::optional<XmlElement> XmlFiles::parse(const std::string& text,
   elements_ += static_cast<std::size_t>(std::ranges::count(text, '<'));
   if (elements_ > most_xml_elements) {
     mistakes_.add(where + "must have at most " + std::to_string(most_xml_elements) +
-                  " elements, with all files that are included");
+                  " elements, including included files");
     return std::nullopt;
   }
   bytes_ += text.size();
   if (bytes_ > most_collada_bytes) {
     mistakes_.add(where + "must have at most " + std::to_string(most_collada_bytes) +
-                  " bytes, with all files that are included");
+                  " bytes, including included files");
     return std::nullopt;
   }
   if (text.find("<!ENTITY") != text.npos) {
-    mistakes_.add(where + "declares entities (<!ENTITY), which are not read");
+    mistakes_.add(where + "declares entities (<!ENTITY), which are not supported");
     return std::nullopt;
   }
   if (const LargestTag largest = largest_tag(text); largest.attributes > most_xml_attributes) {
@@ -194,7 +194,7 @@ std::optional<XmlElement> XmlFiles::parse(const std::string& text,
                   (is_deep
                        ? ": elements are nested too deeply (at most " +
                              std::to_string(TINYXML2_MAX_ELEMENT_DEPTH) + ")"
-                       : ": is no XML that can be read (" +
+                       : ": not valid XML (" +
                              std::string(tinyxml2::XMLDocument::ErrorIDToName(document.ErrorID())) +
                              ")"));
     return std::nullopt;
@@ -246,7 +246,7 @@ void XmlFiles::wrong(const XmlElement& element, std::string_view message) {
   std::string key = std::to_string(element.file) + ":" + std::to_string(element.line) + ":";
   if (!told_.insert(key.append(message)).second) return;
   if (++reported_ > most_reported) {
-    if (reported_ == most_reported + 1) mistakes_.add("and more mistakes, which are not told");
+    if (reported_ == most_reported + 1) mistakes_.add("further errors omitted");
     return;
   }
   const std::string where =

@@ -54,7 +54,7 @@ class SdfReader {
         has_content_ = true;
       } else if (world.name == "world" && child.name != "physics" && child.name != "gravity" &&
                  child.name != "frame") {
-        model_.pass_over("<" + printable(child.name, 40) + ">", "is no geometry");
+        model_.pass_over("<" + printable(child.name, 40) + ">", "not a geometry");
         has_content_ = true;
       }
     }
@@ -63,7 +63,7 @@ class SdfReader {
   void read_model(const XmlElement& model, const Placing& at) {
     has_content_ = true;
     if (at.depth > deepest_sdf_model)
-      return files_.wrong(model, "models are nested too deeply, or for ever");
+      return files_.wrong(model, "models are nested too deeply, or in a cycle");
     frames_.push_back(std::make_unique<SdfFrames>(model, files_));
     SdfFrames& frames = *frames_.back();
     Affine<double> pose = at.outer * at.pose;
@@ -74,7 +74,7 @@ class SdfReader {
     const std::string inner = at.prefix + (name.empty() ? "" : name + "::");
     // Each link and joint carries it.
     if (const auto complaint = complaint_of_length(inner))
-      return files_.wrong(model, "name: with those of the models around it, " + *complaint);
+      return files_.wrong(model, "name: with the names of the enclosing models, " + *complaint);
 
     for (const XmlElement& child : model.children) {
       const std::string own = child.attribute_or("name");
@@ -88,7 +88,7 @@ class SdfReader {
       } else if (child.name == "include") {
         read_include(child, pose, frames);
       } else if (child.name == "plugin" || child.name == "gripper") {
-        model_.pass_over("<" + child.name + ">", "is no geometry");
+        model_.pass_over("<" + child.name + ">", "not a geometry");
       }
     }
   }
@@ -114,8 +114,7 @@ class SdfReader {
     const std::string own = link.attribute_or("name"), name = prefix + own;
     const Affine<double> in_model = frames.pose_of(own, link);
     const int index = static_cast<int>(model_.links.size());
-    if (!links_.index.emplace(name, index).second)
-      files_.wrong(link, "name: must not be the name of two links");
+    if (!links_.index.emplace(name, index).second) files_.wrong(link, "name: duplicate link");
     model_.links.push_back({name, -1, model_in_world * in_model});
     links_.elements.push_back(&link);
     for (const XmlElement& child : link.children) {
@@ -125,7 +124,7 @@ class SdfReader {
                                                 : sdf_pose(child, files_));
       else if (child.name == "light" || child.name == "sensor" || child.name == "projector" ||
                child.name == "particle_emitter")
-        model_.pass_over("<" + child.name + ">", "is no geometry");
+        model_.pass_over("<" + child.name + ">", "not a geometry");
     }
   }
 

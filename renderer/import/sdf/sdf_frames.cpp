@@ -69,7 +69,7 @@ SdfFrames::SdfFrames(const XmlElement& model, XmlFiles& files) : model_(model), 
       const std::string own = sdf_text(child, "name");
       if (!own.empty() &&
           !frames_.emplace(own, Frame{sdf_pose(child, files), relative_to(child), &child}).second)
-        files.wrong(child, "name: must not be given twice");
+        files.wrong(child, "name: duplicate");
       continue;
     }
     if (child.name != "link" && child.name != "frame" && child.name != "joint" &&
@@ -83,9 +83,9 @@ SdfFrames::SdfFrames(const XmlElement& model, XmlFiles& files) : model_(model), 
     const std::string own = child.attribute_or("name");
     // A file's only model may do without a name.
     if (own.empty() && child.name == "model" && model.name != "model") continue;
-    if (own.empty()) files.wrong(child, "name: must be there");
+    if (own.empty()) files.wrong(child, "name: missing");
     if (!frames_.emplace(own, frame).second && child.name != "joint")
-      files.wrong(child, "name: must not be given twice");
+      files.wrong(child, "name: duplicate");
   }
 }
 
@@ -101,12 +101,12 @@ Affine<double> SdfFrames::pose_of(const std::string& name, const XmlElement& ask
   }
   const auto found = frames_.find(name);
   if (found == frames_.end()) {
-    files_.wrong(asks, "there is no frame \"" + printable(name, 60) + "\"");
+    files_.wrong(asks, "no frame is named \"" + printable(name, 60) + "\"");
     return {};
   }
   Frame& frame = found->second;
   if (frame.is_open)
-    files_.wrong(*frame.element, "frames must not be relative to each other in a circle");
+    files_.wrong(*frame.element, "frames must not be relative to each other in a cycle");
   else if (!frame.is_known)
     find(frame);
   return frame.in_model;
@@ -164,8 +164,8 @@ void SdfFrames::find(Frame& frame) {
     if (there == frames_.end() || there->second.is_open) {
       files_.wrong(*at->element,
                    there == frames_.end()
-                       ? "relative_to: there is no frame \"" + printable(next, 60) + "\""
-                       : "frames must not be relative to each other in a circle");
+                       ? "relative_to: no frame is named \"" + printable(next, 60) + "\""
+                       : "frames must not be relative to each other in a cycle");
       break;
     }
     if (there->second.is_known) {

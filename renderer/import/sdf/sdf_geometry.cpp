@@ -130,7 +130,7 @@ void SdfGeometry::add_shape(const XmlElement& shape, ModelGeom geom, Colouring c
     }
   } else if (shape.name == "mesh") {
     const std::string uri = sdf_text(shape, "uri");
-    if (uri.empty()) return files_.wrong(shape, "uri: must be there");
+    if (uri.empty()) return files_.wrong(shape, "uri: missing");
     Vec3<double> scale = Vec3<double>::Ones();
     if (const XmlElement* child = shape.child("scale"))
       if (const auto v = files_.numbers_in(*child, child->text, "scale", 3, 3))
@@ -148,9 +148,9 @@ void SdfGeometry::add_shape(const XmlElement& shape, ModelGeom geom, Colouring c
   } else if (shape.name == "heightmap") {
     return add_height_map(shape, std::move(geom));
   } else if (shape.name == "image") {
-    return model_.pass_over("<" + shape.name + ">", "is no convex shape");
+    return model_.pass_over("<" + shape.name + ">", "not a convex shape");
   } else {
-    return files_.wrong(shape, "is no geometry of SDF");
+    return files_.wrong(shape, "not a geometry of SDF");
   }
   if (is_good) model_.geoms.push_back(std::move(geom));
 }
@@ -158,7 +158,7 @@ void SdfGeometry::add_shape(const XmlElement& shape, ModelGeom geom, Colouring c
 /// White is the size's z above black, and the first row of the picture has the greatest y.
 void SdfGeometry::add_height_map(const XmlElement& shape, ModelGeom geom) {
   const std::string uri = sdf_text(shape, "uri");
-  if (uri.empty()) return files_.wrong(shape, "uri: must be there");
+  if (uri.empty()) return files_.wrong(shape, "uri: missing");
   const auto three = [&](const char* key, const Vec3<double>& otherwise) {
     const XmlElement* child = shape.child(key);
     if (!child) return std::optional(otherwise);
@@ -170,7 +170,7 @@ void SdfGeometry::add_height_map(const XmlElement& shape, ModelGeom geom) {
   const auto file = library_of(shape).find_also_in(uri, {});
   if (!file) {
     if (options_.skip_missing_meshes) return model_.pass_over("<heightmap>", "its file is missing");
-    return files_.wrong(shape, "uri: \"" + printable(uri, 100) + "\" is not there");
+    return files_.wrong(shape, "uri: \"" + printable(uri, 100) + "\" not found");
   }
   try {
     HeightGrid grid = read_height_picture(*file);

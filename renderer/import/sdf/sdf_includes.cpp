@@ -48,7 +48,7 @@ void SdfIncludes::expand(XmlElement& parent, int depth) {
     bool is_merged = false;
     if (child.name == "include") {
       if (depth >= deepest_sdf_model) {
-        files_.wrong(child, "files include each other for ever");
+        files_.wrong(child, "files include each other in a cycle");
         continue;
       }
       std::optional<XmlElement> model = model_for(child);
@@ -141,7 +141,7 @@ std::optional<XmlElement> SdfIncludes::model_for(const XmlElement& include) {
     files_.wrong(include, why);
     return std::nullopt;
   };
-  if (uri.empty()) return refuse("uri: must be there");
+  if (uri.empty()) return refuse("uri: missing");
   if (++count_ > most_includes)
     return refuse("includes more than " + std::to_string(most_includes) + " files");
   const std::filesystem::path folder = files_.files()[include.file].parent_path();
@@ -155,8 +155,8 @@ std::optional<XmlElement> SdfIncludes::model_for(const XmlElement& include) {
   if (!file) {
     if (uri == "model://sun") model_.pass_over("<include>", "model://sun is a light");
     if (uri == "model://sun" || uri == "model://ground_plane") return std::nullopt;
-    return refuse("the model \"" + printable(uri, 100) + "\" is not there (looked for " +
-                  list_of_places(places) + "); --model-dir says where models are");
+    return refuse("the model \"" + printable(uri, 100) +
+                  "\" not found (searched: " + list_of_places(places) + "); set --model-dir");
   }
   std::optional<XmlElement> root = files_.read(*file);
   if (!root) return std::nullopt;
@@ -173,7 +173,7 @@ std::optional<XmlElement> SdfIncludes::model_for(const XmlElement& include) {
       return refuse("the file " + printable(file->string(), 100) +
                     " has no <model>, <actor> or <light>");
     if (found->name == "light") {
-      model_.pass_over("<light>", "is no geometry");
+      model_.pass_over("<light>", "not a geometry");
       return std::nullopt;
     }
     model = std::move(*found);
@@ -212,7 +212,7 @@ std::filesystem::path SdfIncludes::file_of_config(const std::filesystem::path& c
   std::error_code error;
   const std::filesystem::path file = config.parent_path() / name;
   if (!name.empty() && std::filesystem::is_regular_file(file, error)) return file;
-  files_.wrong(include, printable(config.string(), 200) + ": names no <sdf> file that is there" +
+  files_.wrong(include, printable(config.string(), 200) + ": no <sdf> file found" +
                             (name.empty() ? "" : " (got \"" + printable(name, 60) + "\")"));
   return {};
 }

@@ -45,9 +45,9 @@ void SdfTree::find_parents() {
     const int child = index_of(joint.child);
     const int parent = joint.parent == "world" ? -1 : index_of(joint.parent);
     if (child < 0 || (parent < 0 && joint.parent != "world")) {
-      files_.wrong(*joint.element, "the link \"" +
-                                       printable(child < 0 ? joint.child : joint.parent, 60) +
-                                       "\" is not there");
+      files_.wrong(
+          *joint.element,
+          "the link \"" + printable(child < 0 ? joint.child : joint.parent, 60) + "\" not found");
       continue;
     }
     const auto c = static_cast<std::size_t>(child);
@@ -105,7 +105,7 @@ void SdfTree::connect() {
   if (order.size() < count) {
     for (std::size_t i = 0; i < count; ++i)
       if (place[i] < 0) {
-        files_.wrong(*links_.elements[i], "joints must not run in a circle");
+        files_.wrong(*links_.elements[i], "joints must not form a cycle");
         break;
       }
     return;

@@ -34,15 +34,15 @@ class UrdfReader {
     for (const XmlElement& child : robot.children) {
       if (child.name == "link") {
         const std::string name = child.attribute_or("name");
-        if (name.empty()) files_.wrong(child, "name: must be there");
+        if (name.empty()) files_.wrong(child, "name: missing");
         if (!link_elements_.emplace(name, &child).second)
-          files_.wrong(child, "name: must not be the name of two links");
+          files_.wrong(child, "name: duplicate link");
         else
           link_order_.push_back(name);
       } else if (child.name == "joint") {
         read_joint(child);
       } else if (child.name != "material") {
-        model_.pass_over("<" + printable(child.name, 40) + ">", "is no geometry");
+        model_.pass_over("<" + printable(child.name, 40) + ">", "not a geometry");
       }
     }
     if (link_order_.empty()) files_.wrong(robot, "must have links");
@@ -50,10 +50,10 @@ class UrdfReader {
     check_joints();
     add_links();
     if (const std::string lost = follow_mimics(model_); !lost.empty())
-      files_.wrong(robot, "mimic: the joint \"" + printable(lost, 60) +
-                              "\" is not there, or joints mimic each other in a circle or "
-                              "through more than " +
-                              std::to_string(longest_mimicry) + " others");
+      files_.wrong(robot,
+                   "mimic: the joint \"" + printable(lost, 60) +
+                       "\" not found, or joints mimic each other in a cycle or through more than " +
+                       std::to_string(longest_mimicry) + " others");
     model_.hash = files_.hash_text();
     meshes_.hand_over(model_);
     return std::move(model_);
@@ -82,7 +82,7 @@ class UrdfReader {
     if (material.child("texture"))
       model_.pass_over("<texture>", "surfaces have one colour");
     else if (!name.empty())
-      model_.pass_over("<material>", "no colour is known of \"" + printable(name, 60) + "\"");
+      model_.pass_over("<material>", "unknown colour \"" + printable(name, 60) + "\"");
     return std::nullopt;
   }
 
@@ -162,7 +162,7 @@ class UrdfReader {
       for (const std::string& name : {child, joint.parent}) {
         if (name.empty() || link_elements_.contains(name)) continue;
         if (welds_to_world_ && &name != &child && name == world_name) continue;
-        files_.wrong(*joint.element, "the link \"" + printable(name, 60) + "\" is not there");
+        files_.wrong(*joint.element, "the link \"" + printable(name, 60) + "\" not found");
         is_link_missing_ = true;
       }
   }
@@ -186,8 +186,7 @@ class UrdfReader {
     const auto roots = std::ranges::count_if(
         open, [&](const std::string& name) { return !joint_of_child_.contains(name); });
     if (roots > 1)
-      model_.pass_over("links without a parent",
-                       "there are several: each stands in the world by itself",
+      model_.pass_over("links without a parent", "several: each is placed in the world on its own",
                        static_cast<std::size_t>(roots));
     std::ranges::reverse(open);
     std::map<std::string, int> index;
@@ -212,7 +211,7 @@ class UrdfReader {
     if (is_link_missing_ || model_.links.size() == link_order_.size()) return;
     for (const std::string& name : link_order_)
       if (!index.contains(name)) {
-        files_.wrong(*joint_of_child_.at(name).element, "joints must not run in a circle");
+        files_.wrong(*joint_of_child_.at(name).element, "joints must not form a cycle");
         return;
       }
   }
@@ -222,7 +221,7 @@ class UrdfReader {
       if (child.name == "visual" || child.name == "collision") {
         read_shapes(model_, files_, options_, [&] { add_geom(child, index); });
       } else if (child.name != "inertial" && child.name != "contact") {
-        model_.pass_over("<link><" + printable(child.name, 40) + ">", "is no geometry");
+        model_.pass_over("<link><" + printable(child.name, 40) + ">", "not a geometry");
       }
     }
   }
@@ -272,7 +271,7 @@ class UrdfReader {
       geom.pose.linear = geom.pose.linear * rotation_of_z_to(normal);
     } else if (shape.name == "mesh") {
       const std::string* file = shape.attribute("filename");
-      if (!file) return files_.wrong(shape, "filename: must be there");
+      if (!file) return files_.wrong(shape, "filename: missing");
       const Vec3<double> scale = files_.vector(shape, "scale").value_or(Vec3<double>::Ones());
       add_mesh(model_, files_, shape, meshes_.parts_of(*file, scale), std::move(geom), options_,
                colouring);

@@ -35,8 +35,7 @@ void wrong_null(const char* argument) {
 void require_room(std::size_t count, std::size_t bytes_each, const char* argument) {
   constexpr auto most_bytes = static_cast<std::size_t>(std::numeric_limits<std::ptrdiff_t>::max());
   if (count > most_bytes / bytes_each)
-    wrong_use(std::string(argument) + ": must be of things that are in memory (got " +
-              std::to_string(count) + ")");
+    wrong_use(std::string(argument) + ": must fit into memory (got " + std::to_string(count) + ")");
 }
 
 int keep_error(const char* function) noexcept {
@@ -52,7 +51,7 @@ int keep_error(const char* function) noexcept {
     } catch (const CannotWrite& error) {
       return keep(MINKRAY_BAD_INPUT, function, error.what());
     } catch (const std::bad_alloc&) {
-      return keep(MINKRAY_NO_MEMORY, function, "there is not enough memory");
+      return keep(MINKRAY_NO_MEMORY, function, "out of memory");
     } catch (const std::exception& error) {
       return keep(MINKRAY_DEFECT, function, error.what());
     } catch (...) {

@@ -276,8 +276,7 @@ void CustomSupport::check(const Coordinates& n, const Coordinates& point) const 
     for (int k = 0; k < 3; ++k) {
       const double x = point[static_cast<std::size_t>(k)];
       if (x < bounds_.lower[k] - allowed_ || x > bounds_.upper[k] + allowed_)
-        return complain("the support function answered " + text_of(point) +
-                        ", which lies out of the bounds that were given with it");
+        return complain("the support function answered " + text_of(point) + ", outside its bounds");
     }
   }
   if (wrong == 0) return;

@@ -181,8 +181,7 @@ void HeldScene::check_object(std::uint32_t number, const char* argument) const {
     wrong_use(std::string(argument) + ": must be less than " + std::to_string(size_) + " (got " +
               std::to_string(number) + ")");
   if (is_removed(number))
-    wrong_use(std::string(argument) + ": must not be one that was removed (got " +
-              std::to_string(number) + ")");
+    wrong_use(std::string(argument) + ": must not be removed (got " + std::to_string(number) + ")");
 }
 
 Affine<double> HeldScene::pose(std::uint32_t number) const {

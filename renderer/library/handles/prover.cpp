@@ -150,7 +150,7 @@ minkray_proof Prover::prove(const Ray<double>& ray, const minkray_hit& hit) cons
   const bool is_met = hit.status == MINKRAY_HIT || hit.status == MINKRAY_INSIDE;
   if (is_met) {
     if (hit.object >= bodies_.size() || bodies_[hit.object].is_removed) {
-      complain(proof, "there is no such object", hit.object);
+      complain(proof, "no such object", hit.object);
       return proof;
     }
     Claim claim;
@@ -183,7 +183,8 @@ minkray_proof Prover::prove(const Ray<double>& ray, const minkray_hit& hit) cons
     ++proof.checked;
     if (!keeps_off(i, ray, end)) {
       complain(proof,
-               is_met ? "another object is not kept off before" : "an object is not kept off", i);
+               is_met ? "another object before it is not separated" : "an object is not separated",
+               i);
       return proof;
     }
   }

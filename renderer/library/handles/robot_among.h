@@ -32,8 +32,8 @@ inline std::vector<JointRow> rows_of(const HeldScene::Group& robot, const double
   std::size_t width = 0;
   for (const auto& joint : robot.joints) width += joint.second;
   if (numbers != width)
-    wrong_use("numbers: must be " + std::to_string(width) +
-              ", those of all joints of the group (got " + std::to_string(numbers) + ")");
+    wrong_use("numbers: must be " + std::to_string(width) + ", for all joints of the group (got " +
+              std::to_string(numbers) + ")");
   if (rows == 0) wrong_use("rows: must be at least 1");
   if (width > 0) require(path, "path");
   require_room(rows, sizeof(double) * (width + 1), "rows");

@@ -71,7 +71,7 @@ py::array_t<T> column(const std::vector<minkray_clearance>& found, T minkray_cle
 
 py::dict clearance(const Scene& scene, const Scene::Group& robot, const Doubles& path,
                    double tolerance, bool only_obstacles, bool jac, int threads) {
-  if (path.ndim() != 2) throw py::value_error("path: must have the shape (rows, joint values)");
+  if (path.ndim() != 2) throw py::value_error("path: must have shape (rows, joint values)");
   const auto rows = static_cast<std::size_t>(path.shape(0));
   std::vector<minkray_clearance> steps(std::max<std::size_t>(rows, 2) - 1);
   const minkray_clearance_options options = {sizeof options, tolerance, only_obstacles ? 1 : 0,
@@ -111,7 +111,7 @@ py::dict clearance(const Scene& scene, const Scene::Group& robot, const Doubles&
 py::dict verify(const Scene& scene, const Scene::Group& robot, const Doubles& path,
                 const Doubles& rates, const Doubles& accelerations, double margin, double tolerance,
                 std::size_t budget, bool only_obstacles, const std::string& proof, int threads) {
-  if (path.ndim() != 2) throw py::value_error("path: must have the shape (rows, joint values)");
+  if (path.ndim() != 2) throw py::value_error("path: must have shape (rows, joint values)");
   const bool has_rates = rates.size() > 0;
   if (has_rates && rates.size() != path.size())
     throw py::value_error("rates: must have the shape of the path");

@@ -29,7 +29,7 @@ struct RayRows {
     if (!t_max) PyErr_Clear();
     const bool is_one = t_max && t_max.ndim() == 0;
     if (!t_max || (!is_one && static_cast<std::size_t>(t_max.size()) != rows.count))
-      throw py::value_error("t_max: must be a number, or one for each ray");
+      throw py::value_error("t_max: must be a number, or one per ray");
     arrays.t_max = t_max.data();
     arrays.t_max_stride = is_one ? 0 : static_cast<std::ptrdiff_t>(sizeof(double));
   }

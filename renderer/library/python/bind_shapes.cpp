@@ -192,7 +192,7 @@ py::dict mesh_info(const Shape& shape) {
 
 void bind_shapes(py::module_& module) {
   py::class_<Shape>(module, "Shape",
-                    "A convex shape, or a mesh, which never changes.\n\n"
+                    "An immutable convex shape or mesh.\n\n"
                     "Made by functions such as `minkray.box`; see `minkray.custom` for your own.")
       .def_property_readonly("kind", &Shape::kind, "str : such as 'rounded'")
       .def("_support", &support)

@@ -29,7 +29,7 @@ int answer_once(const py::function& support, std::size_t count, const double (*d
   if (!array || array.ndim() != 2 || array.shape(0) != rows || array.shape(1) != 3) {
     PyErr_Clear();
     const std::string text =
-        "it must answer an array of numbers of the shape (" + std::to_string(count) + ", 3)";
+        "must return an array of numbers of shape (" + std::to_string(count) + ", 3)";
     minkray_support_failed(text.c_str());
     return 1;
   }
@@ -73,7 +73,7 @@ minkray::Shape custom(const py::function& support, const py::object& bounds) {
     box = Doubles::ensure(bounds);
     if (!box) PyErr_Clear();
     if (!box || box.ndim() != 2 || box.shape(0) != 2 || box.shape(1) != 3)
-      throw py::value_error("bounds: must be two corners of a box, of the shape (2, 3)");
+      throw py::value_error("bounds: must be two corners of a box, shape (2, 3)");
     given.lower = box.data();
     given.upper = box.data() + 3;
   }

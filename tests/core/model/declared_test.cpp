@@ -1,13 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Only the header's declarations of a shape count, never the names of its fields. A wedge whose
-// size was called half_extents, as a box's is, was taken for a box: rays that pass it by above its
-// slope were hits at t = 4.
-//
-//      z |\ .                A wedge of half extents (1, 1, 1), seen along y: below its slope
-//        | \  .  <- ray      x + z = 0. A ray that runs along y through the dotted corner
-//        +--\   .            meets the box around it, and not the wedge.
-//        |   \    .
-//        +----\-----> x
+// Only a shape's declarations in its header count, not the names of its fields.
 #include "core/support/declared.h"
 
 #include <gtest/gtest.h>
@@ -22,6 +14,15 @@ namespace minkray {
 namespace {
 
 /// The part of a box with x/a + z/c <= 0, which declares nothing.
+///
+/// Has a field `half_extents` as a box has. When fields counted, rays that pass the wedge above its
+/// slope were hits at t = 4.
+///
+///     z |\ .                A wedge of half extents (1, 1, 1), seen along y: below its slope
+///       | \  .  <- ray      x + z = 0. A ray that runs along y through the dotted corner
+///       +--\   .            hits the box around it, and not the wedge.
+///       |   \    .
+///       +----\-----> x
 template <class T>
 struct Wedge {
   Vec3<T> half_extents = Vec3<T>::Ones();

@@ -45,6 +45,23 @@ TEST_F(NothingLost, values_that_do_not_fit_are_wrong_usage) {
       0);
 }
 
+TEST_F(NothingLost, messages_about_values_have_one_form) {
+  for (const auto& [arguments, message] :
+       {std::pair{"-s many", "--spp: must be a number from 1 to 16777216 (got many)"},
+        {"-s 0", "--spp: must be a number from 1 to 16777216 (got 0)"},
+        {"-s", "--spp: must have a value (got none)"},
+        {"-r 2x2 -r 3x3", "--resolution: must be given once (got 2)"}}) {
+    const ProgramOutcome outcome =
+        shell(std::string("\"$MINKRAY\" render scene.json -o a.png ") + arguments);
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.err.substr(0, outcome.err.find('\n')), message);
+  }
+  EXPECT_TRUE(shell("\"$MINKRAY\" trace scene.json --pixel 1")
+                  .err.starts_with("--pixel: must have at least 2 values (got 1)\n"));
+  EXPECT_TRUE(shell("\"$MINKRAY\" distance scene.json scene.json --at-most far")
+                  .err.starts_with("--at-most: must be a number (got far)\n"));
+}
+
 TEST_F(NothingLost, no_output_takes_the_place_of_an_input_or_another_output) {
   const ProgramOutcome made = shell(R"(set -e
     fails() { expected=$1; shift; if "$MINKRAY" "$@"; then exit 1; else test $? = $expected; fi; }
@@ -64,7 +81,7 @@ TEST_F(NothingLost, no_output_takes_the_place_of_an_input_or_another_output) {
     fails 4 render scene.json -s 1 -o b.png
     test -d b.png.checkpoint)");
   EXPECT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_NE(made.err.find("a.png.checkpoint: is no checkpoint"), std::string::npos) << made.err;
+  EXPECT_NE(made.err.find("a.png.checkpoint: not a checkpoint"), std::string::npos) << made.err;
 }
 
 /// The textures and the sky of a scene were written over.

@@ -79,7 +79,7 @@ TEST_F(ExactMeshes, are_those_of_obj_and_stl) {
   const MeshLibrary::Answer flat = read("b.stl", {1, 1, 0});
   EXPECT_FALSE(flat.parts[0].surface);
   EXPECT_TRUE(flat.parts[0].hull);
-  EXPECT_NE(std::ranges::find(flat.notes, "has no triangles: its hull is shown"), flat.notes.end());
+  EXPECT_NE(std::ranges::find(flat.notes, "has no triangles: its hull is used"), flat.notes.end());
   options_.meshes = MeshChoice::hull;
   EXPECT_FALSE(read("b.stl").parts[0].surface);
   // A split makes hulls, unless triangles are requested.

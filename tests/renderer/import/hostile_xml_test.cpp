@@ -32,7 +32,7 @@ TEST(HostileXml, is_refused_with_a_reason) {
       mistakes_of("<robot><link name='a'/><link name='b'/><joint name='1' type='fixed'><parent "
                   "link='a'/><child link='b'/></joint><joint name='2' type='fixed'><parent "
                   "link='b'/><child link='a'/></joint></robot>")
-          .find("in a circle"),
+          .find("in a cycle"),
       std::string::npos);
 }
 
@@ -170,10 +170,11 @@ TEST(HostileXml, names_of_more_than_a_thousand_bytes_are_refused) {
               "line 2: <link name=\"nnn");
   // Models in models: each name is short enough, all of them are not.
   const std::string half(600, 'm');
-  expect_told("<sdf version='1.9'><model name='" + half + "'>\n<model name='" + half +
-                  "'><link name='l'/></model></model></sdf>",
-              "name: with those of the models around it, must have at most 1000 bytes (got 1204)",
-              "m.sdf");
+  expect_told(
+      "<sdf version='1.9'><model name='" + half + "'>\n<model name='" + half +
+          "'><link name='l'/></model></model></sdf>",
+      "name: with the names of the enclosing models, must have at most 1000 bytes (got 1204)",
+      "m.sdf");
   const TemporaryFolder folder;
   std::ofstream(folder / "a.sdf")
       << "<sdf version='1.9'><model name='a'><link name='l'/></model></sdf>";
@@ -199,8 +200,8 @@ TEST(HostileXml, defaults_hold_as_much_as_robots_need) {
   // Each geom was compared with each of them: 94 kB took two minutes.
   expect_told(with("<default><geom" + attributes_named("a", 150) + "/>\n<default class='c'><geom" +
                    attributes_named("b", 60) + "/></default></default>"),
-              "line 2: <geom>: must have at most 200 attributes of 10000 bytes, with those of the "
-              "classes around it (got 210 of ");
+              "line 2: <geom>: must have at most 200 attributes of 10000 bytes, including "
+              "inherited ones (got 210 of ");
   expect_told(with("<default><geom user='" + std::string(10'000, '1') + "'/></default>"),
               "(got 1 of 10004)");
   // Each class has what those around it have.
@@ -266,7 +267,7 @@ TEST(HostileXml, pins_of_a_composite_are_places) {
   for (const std::string coord : {"1e300", "-1", "0.5", "0 1e6"})
     expect_told(with("coord='" + coord + "'"),
                 "line 2: <pin>: coord: must be whole numbers from 0 to 100,000 (got \"" + coord);
-  expect_told(with(""), "<pin>: coord: must be there");
+  expect_told(with(""), "<pin>: coord: missing");
   Mistakes mistakes("m.xml");
   const auto model = parse_model(with("coord='2 1'"), "m.xml", {}, mistakes);
   ASSERT_TRUE(model) << mistakes.text();
@@ -328,7 +329,7 @@ TEST(HostileXml, a_mesh_is_shown_at_so_many_scales) {
   ASSERT_EQ(mistakes.messages().size(), 11u);
   EXPECT_NE(mistakes.messages().back().find(
                 "line 12: <mesh filename=\"m.obj\">: the mesh \"m.obj\": with the meshes before, "
-                "each once for each of its scales, hulls are made of at most 1000000 vertices (got "
+                "each once per scale, hulls must have at most 1000000 vertices (got "
                 "1100000)"),
             std::string::npos)
       << mistakes.text();
@@ -344,12 +345,12 @@ TEST(HostileXml, bodies_and_classes_that_are_not_there_are_named) {
       mistakes_of("<sdf version='1.6'><model name='m'><link name='a'/><joint name='j' "
                   "type='fixed'><parent>a</parent><child>nobody</child></joint></model></sdf>",
                   "m.sdf")
-          .find("the link \"nobody\" is not there"),
+          .find("the link \"nobody\" not found"),
       std::string::npos);
   EXPECT_NE(mistakes_of("<robot name='r'><link name='a'/><link name='b'/><joint name='j' "
                         "type='revolute'><parent link='a'/><child link='b'/><mimic joint='none'/>"
                         "</joint></robot>")
-                .find("the joint \"none\" is not there"),
+                .find("the joint \"none\" not found"),
             std::string::npos);
 }
 

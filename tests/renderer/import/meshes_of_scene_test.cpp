@@ -40,8 +40,7 @@ TEST(MeshesOfScene, are_told_with_how_deep_a_vertex_lies_under_the_hull) {
   // In the hull of both the roof is far, and the vertex lies 1 under the other sides.
   EXPECT_NEAR(facts_of(meshes[1]).deepest, 1, 1e-12);
   EXPECT_EQ(facts_of(meshes[1]).hull_points, 6u);
-  EXPECT_NE(meshes_as_text(meshes).find("8 of 2 hulls; vertices up to 0.577 under the hull"),
-            std::string::npos)
+  EXPECT_NE(meshes_as_text(meshes).find("8 of 2 hulls; convex hull up to 0.577"), std::string::npos)
       << meshes_as_text(meshes);
 }
 

@@ -129,7 +129,7 @@ TEST_F(RobotOptions, macros_and_unknown_materials_of_urdf_are_told) {
     <sphere radius="1"/></geometry><material name="chrome"/></visual></link></robot>)",
                                  "r.urdf", {}, mistakes);
   ASSERT_TRUE(model) << mistakes.text();
-  EXPECT_NE(model_as_text(*model).find("no colour is known of \"chrome\""), std::string::npos);
+  EXPECT_NE(model_as_text(*model).find("unknown colour \"chrome\""), std::string::npos);
 }
 
 TEST_F(RobotOptions, poses_may_be_relative_to_what_stands_in_an_included_model) {
@@ -160,7 +160,7 @@ TEST_F(RobotOptions, poses_may_be_relative_to_what_stands_in_an_included_model) 
   const std::string wrong = write("x.sdf", R"(<sdf version="1.9"><world name="w">
     <include><uri>cup.sdf</uri><pose relative_to="table">0 0 0 0 0 0</pose></include></world></sdf>)");
   const std::string text = refusal(wrong, {});
-  EXPECT_NE(text.find("line 2: <model name=\"cup\">: there is no frame \"table\""), text.npos)
+  EXPECT_NE(text.find("line 2: <model name=\"cup\">: no frame is named \"table\""), text.npos)
       << text;
 }
 
@@ -170,7 +170,7 @@ TEST_F(RobotOptions, a_part_of_a_mesh_that_sdf_asks_for_is_told_not_to_be_single
     <visual name="v"><geometry><mesh><uri>m.obj</uri><submesh><name>lid</name></submesh></mesh>
     </geometry></visual></link></model></sdf>)");
   const std::string text = model_as_text(*import_scene(file).model);
-  EXPECT_NE(text.find("<mesh>: has no part \"lid\": all of it is shown"), text.npos) << text;
+  EXPECT_NE(text.find("<mesh>: has no part \"lid\": the whole mesh is used"), text.npos) << text;
 }
 
 TEST_F(RobotOptions, a_mesh_that_is_there_in_another_format_is_told_to_be) {
@@ -178,7 +178,7 @@ TEST_F(RobotOptions, a_mesh_that_is_there_in_another_format_is_told_to_be) {
   const std::string file = write("r.urdf", R"(<robot name="r"><link name="a"><visual><geometry>
     <mesh filename="m.dae"/></geometry></visual></link></robot>)");
   const std::string text = model_as_text(*import_scene(file).model);
-  EXPECT_NE(text.find("m.dae (there as m.obj): 4 vertices"), text.npos) << text;
+  EXPECT_NE(text.find("m.dae (found as m.obj): 4 vertices"), text.npos) << text;
 }
 
 TEST_F(RobotOptions, rows_of_json_say_what_is_wrong_with_a_value) {
@@ -187,7 +187,7 @@ TEST_F(RobotOptions, rows_of_json_say_what_is_wrong_with_a_value) {
   options.joint_rows = write("rows.json", R"([{"left": "far"}, {"left": [1, 2]}, {"lid": 1}])");
   const std::string text = refusal(file, options);
   for (const char* expected : {"/0/left: must be a number", "/1/left: must be a list of 1",
-                               "/2/lid: there is no joint of this name"})
+                               "/2/lid: no joint has this name"})
     EXPECT_NE(text.find(expected), text.npos) << expected << " in\n" << text;
 }
 
@@ -209,7 +209,7 @@ TEST_F(RobotOptions, an_sdf_model_is_the_file_that_its_config_names) {
   ASSERT_EQ(imported.scene.objects.size(), 1u);
   EXPECT_EQ(imported.scene.objects[0].shape.support(Vec3<double>(1, 0, 0)).x(), 2);
   write("models/cup/model.config", "<model><sdf version='1.6'>gone.sdf</sdf></model>");
-  EXPECT_NE(refusal(file, options).find("names no <sdf> file that is there (got \"gone.sdf\")"),
+  EXPECT_NE(refusal(file, options).find("no <sdf> file found (got \"gone.sdf\")"),
             std::string::npos);
 }
 

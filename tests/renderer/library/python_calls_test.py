@@ -118,7 +118,7 @@ class Mistakes(unittest.TestCase):
                     lambda: scene.cast_rays(np.ma.masked_equal([[0.0, 0, 0, 1, 0, 0]], 0)),
                 "Scene.cast_rays: rays: must be an array of numbers (got list)": lambda: scene.cast_rays([[1], [2, 3]]),
                 "Scene.cast_rays: rays: must be an array of numbers (got NoneType)": lambda: scene.cast_rays(None),
-                "Scene.cast_rays: t_max: must be a number, or one for each ray":
+                "Scene.cast_rays: t_max: must be a number, or one per ray":
                     lambda: scene.cast_rays(ray, t_max=[1, 2]),
                 "Scene.cast_rays: rays[0].t_max: must be >= 0": lambda: scene.cast_rays(ray, t_max=-1),
                 "Scene.cast_rays: threads: must be from 0": lambda: scene.cast_rays(ray, threads=-1),
@@ -152,7 +152,7 @@ class Mistakes(unittest.TestCase):
                 "signed_distance: a: must be a Shape (got int)": lambda: mk.signed_distance(5, None, ball, None),
                 "signed_distance: b[1]: must be a Shape": lambda: mk.signed_distance(ball, None, [ball, 5], None),
                 "signed_distance: pose_b: must be a (4, 4)": lambda: mk.signed_distance(ball, None, ball, [1, 2]),
-                "signed_distance: a, pose_a, b, pose_b: must have shapes that go together (got (2,), (3,), (), ())":
+                "signed_distance: a, pose_a, b, pose_b: must have shapes that broadcast together (got (2,), (3,), (), ())":
                     lambda: mk.signed_distance([ball] * 2, [np.eye(4)] * 3, ball, None),
                 "signed_distance: tolerance: must be": lambda: mk.signed_distance(ball, None, ball, None, -1),
                 "time_of_impact: t_max: must be finite":

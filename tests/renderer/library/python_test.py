@@ -235,7 +235,7 @@ class Hostile(unittest.TestCase):
 
     def test_answers_that_are_no_numbers_are_told(self):
         for answer in ("x", None, object()):
-            with self.assertRaisesRegex(mk.Error, "array of numbers of the shape"):
+            with self.assertRaisesRegex(mk.Error, "array of numbers of shape"):
                 mk.custom(lambda n: answer)
         with self.assertRaisesRegex(mk.Error, r"half_extents/1: must be a finite number \(got nan\)"):
             mk.box([1, np.nan, 1])

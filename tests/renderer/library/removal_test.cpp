@@ -65,8 +65,7 @@ TEST(Removal, of_what_is_removed_already_and_uses_of_it_are_errors) {
       work();
       ADD_FAILURE();
     } catch (const mk::Error& error) {
-      EXPECT_NE(std::string(error.what()).find("must not be one that was removed (got 1)"),
-                std::string::npos)
+      EXPECT_NE(std::string(error.what()).find("must not be removed (got 1)"), std::string::npos)
           << error.what();
     }
   };

@@ -92,7 +92,7 @@ TEST(WrongUse, of_what_was_released_is_found_whatever_was_made_since) {
   for (int i = 0; i < 1000; ++i) others.push_back(ball());
   double lower[3], upper[3];
   expect_error(minkray_shape_bounds(gone, lower, upper), MINKRAY_WRONG_USE,
-               "shape: must be a shape (got one that was released, or none)");
+               "shape: must be a shape (got a released one, or none)");
   expect_error(minkray_shape_release(gone), MINKRAY_WRONG_USE, "released");
   expect_error(minkray_shape_retain(gone), MINKRAY_WRONG_USE, "released");
   for (const minkray_shape shape : others) EXPECT_EQ(minkray_shape_release(shape), MINKRAY_OK);
@@ -102,7 +102,7 @@ TEST(WrongUse, of_what_was_released_is_found_whatever_was_made_since) {
   ASSERT_EQ(minkray_scene_release(scene), MINKRAY_OK);
   minkray_hit hit;
   expect_error(minkray_scene_cast(scene, &along_x, 1, &hit, nullptr), MINKRAY_WRONG_USE,
-               "scene: must be a scene (got one that was released, or none)");
+               "scene: must be a scene (got a released one, or none)");
   // A scene is no shape, whatever their numbers are.
   expect_error(minkray_shape_bounds({scene.id}, lower, upper), MINKRAY_WRONG_USE, "shape");
 }

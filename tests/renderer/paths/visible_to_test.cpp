@@ -187,11 +187,11 @@ TEST(VisibleToRays, mistakes_are_told) {
             "x.json: /objects/1/visible_to/1: must be the name of rays (got \"shadows\"; did you "
             "mean \"shadow\"?)");
   EXPECT_EQ(complaint(visible_to(R"("camera", "camera")")),
-            "x.json: /objects/1/visible_to/1: must not be there twice (got \"camera\" again)");
+            "x.json: /objects/1/visible_to/1: duplicate (got \"camera\" again)");
   for (const std::string lamp : {"lamp", "half lamp"})
     EXPECT_EQ(complaint(visible_to(R"("camera", "shadow")", lamp)),
-              "x.json: /objects/1/visible_to: must have \"shadow\" and \"scattered\" among them, "
-              "which bring the light of what shines (it is of \"" +
+              "x.json: /objects/1/visible_to: must contain \"shadow\" and \"scattered\" for an "
+              "emissive material (\"" +
                   lamp + "\")");
   EXPECT_TRUE(
       read(written_scene("matt", visible_to(R"("shadow", "scattered")", "lamp"))).objects.size());

@@ -126,7 +126,7 @@ TEST(Trajectories, mistakes_have_their_line_and_key) {
   const std::string backwards = mistakes_of_plan(
       "joint_names: [turn]\npoints:\n  - {positions: [0], time_from_start: 2}\n"
       "  - {positions: [0], time_from_start: 1}\n");
-  EXPECT_NE(backwards.find("times must rise"), std::string::npos) << backwards;
+  EXPECT_NE(backwards.find("times must increase"), std::string::npos) << backwards;
   const std::string broken = mistakes_of_plan("joint_names: [turn\npoints: 3\n");
   EXPECT_NE(broken.find("not valid YAML"), std::string::npos) << broken;
   const std::string twice = mistakes_of_plan("points: 1\npoints: 2\n");
@@ -350,7 +350,7 @@ TEST(PlanningScenes, what_is_wrong_is_told_with_its_line) {
             std::string::npos);
   EXPECT_NE(wrong("world: {collision_objects: [{id: x, header: {frame_id: nowhere}, primitives: "
                   "[{type: sphere, dimensions: [1]}]}]}")
-                .find("there is no frame \"nowhere\""),
+                .find("no frame is named \"nowhere\""),
             std::string::npos);
   EXPECT_NE(wrong("world: {octomap: {octomap: {data: [1, 2]}}}").find("octomaps are not read"),
             std::string::npos);

@@ -127,7 +127,7 @@ TEST_F(MeshJson, are_written_and_read_again) {
 
 TEST_F(MeshJson, tell_what_is_wrong) {
   EXPECT_EQ(wrong(R"("mesh": {"file": "two.obj"}, "shape": {"type": "sphere", "radius": 1})"),
-            "s.json: /objects/0/shape: must not be given beside \"mesh\"");
+            "s.json: /objects/0/shape: not allowed together with \"mesh\"");
   EXPECT_EQ(wrong(R"("mesh": {"file": "two.obj", "scale": 0})"),
             "s.json: /objects/0/mesh/scale: must be > 0 (got 0)");
   EXPECT_NE(wrong(R"("mesh": {"file": "points.obj"})").find("must have faces"), std::string::npos);

@@ -142,7 +142,7 @@ TEST_F(Particles, mistakes_are_told_with_file_and_row) {
   write("empty.f64", "");
   EXPECT_EQ(with_file("empty.f64"), at + "empty.f64: must hold at least one row (got none)");
   write_numbers("short.f64", std::vector<double>{1, 2, 3, 4});
-  EXPECT_EQ(with_file("short.f64"), at + "short.f64: row 2: is cut off (got 8 of its 24 bytes)");
+  EXPECT_EQ(with_file("short.f64"), at + "short.f64: row 2: is truncated (got 8 of its 24 bytes)");
   write_numbers("two.f64", std::vector<double>{1, 2, 3, 4, 5, 6});
   EXPECT_EQ(with_file("two.f64", "\"count\": 3, "),
             at + "two.f64: must hold 3 rows, as \"count\" says (got 2)");
@@ -184,7 +184,7 @@ TEST_F(Particles, mistakes_in_the_block_are_told_with_their_places) {
             "x.json: /particles/0/columns/1: must be the name of a column (got \"rotatoin\"; did "
             "you mean \"rotation\"?)");
   EXPECT_EQ(complaint(block + red + R"("columns": ["position", "position"], )" + one),
-            "x.json: /particles/0/columns/1: must not be there twice (got \"position\" again)");
+            "x.json: /particles/0/columns/1: duplicate (got \"position\" again)");
   EXPECT_EQ(complaint(block + one + R"(, "material": "rde")"),
             "x.json: /particles/0/material: must be the name of a material (got \"rde\"; did you "
             "mean \"red\"?)");

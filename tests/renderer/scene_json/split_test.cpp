@@ -76,9 +76,9 @@ TEST_F(Split, stands_only_beside_a_mesh_file) {
   EXPECT_NE(told(file + R"("split": "group")").find("did you mean \"groups\""), std::string::npos);
   EXPECT_NE(told(file + R"("split": 3)").find("/objects/0/split"), std::string::npos);
   EXPECT_NE(
-      told(R"("shape": {"type": "sphere", "radius": 1}, "split": "groups")").find("must stand"),
+      told(R"("shape": {"type": "sphere", "radius": 1}, "split": "groups")").find("needs a shape"),
       std::string::npos);
-  EXPECT_NE(told(R"("shape": {"type": "plane"}, "split": "groups")").find("must stand"),
+  EXPECT_NE(told(R"("shape": {"type": "plane"}, "split": "groups")").find("needs a shape"),
             std::string::npos);
   EXPECT_NE(
       told(R"("shape": {"type": "hull", "file": "no.obj"}, "split": "groups")").find("no.obj"),

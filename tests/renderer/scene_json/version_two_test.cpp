@@ -311,7 +311,7 @@ TEST_F(VersionTwo, mistakes_are_told_with_their_files_and_places) {
       {in_object(R"("transform": {"rotate": {"axis": [0, 0, 0], "degrees": 3}})"),
        "scene.json: /objects/0/transform/rotate/axis: must not be zero"},
       {in_object(R"("transform": {"translate": [1, 2, 3], "rotate": {"look_at": [1, 2, 3]}})"),
-       "scene.json: /objects/0/transform/rotate/look_at: must not be the place of the thing itself "
+       "scene.json: /objects/0/transform/rotate/look_at: must not be the object's own position "
        "([1,2,3])"},
       {in_object(R"("transform": {"rotate": {"degrees": 3}})"),
        "scene.json: /objects/0/transform/rotate/axis: missing: must be the axis to turn about: 3 "
@@ -321,9 +321,9 @@ TEST_F(VersionTwo, mistakes_are_told_with_their_files_and_places) {
       {in_object(R"("keyframes": [])"),
        "scene.json: /objects/0/keyframes: unknown key (did you mean \"keys\"?)"},
       {in_object(R"("color": [1, 1, 1], "material": "m")"),
-       "scene.json: /objects/0/color: must not be given beside \"material\"\n"
-       "scene.json: /objects/0/material: must be the name of a material (got \"m\"; none is known "
-       "here)"},
+       "scene.json: /objects/0/color: not allowed together with \"material\"\n"
+       "scene.json: /objects/0/material: must be the name of a material (got \"m\"; none is "
+       "defined)"},
       {R"({"version": 2, "objects": [{"transform": {"scale": [1, 2, 1]}, "objects": [{)" + ball +
            R"(, "keys": [{"time": 0, "rotate": [1, 0, 0, 1]}]}]}]})",
        "scene.json: /objects/0/objects/0/keys: must not turn the object in a group that is scaled "

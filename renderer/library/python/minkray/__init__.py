@@ -9,8 +9,8 @@
 >>> float(hit.t[0]), scene.names[hit.object[0]]
 (8.45, 'bumper')
 
-Points, directions and poses are in the frame of the world, in one unit of length. Arrays are of
-float64; others are converted. What is wrong is a `minkray.Error`, which is a `ValueError`.
+Points, directions and poses are in the world's frame and unit of length. Arrays are float64; others
+are converted. Wrong arguments raise `minkray.Error`, a `ValueError`.
 """
 from . import _minkray
 from ._minkray import Error, Shape

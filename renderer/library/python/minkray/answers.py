@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What scenes answer: arrays by name."""
+"""Results of scenes: arrays by name."""
 import enum
 
 import numpy as np
@@ -8,8 +8,8 @@ NO_OBJECT = 0xFFFFFFFF
 
 
 class Status(enum.IntEnum):
-    """What became of a ray: HIT, MISS, INSIDE (it begins in the object), or EXHAUSTED: the solver gave
-    up, which is neither a hit nor a miss."""
+    """Status of a ray: HIT, MISS, INSIDE (the ray begins in the object) or EXHAUSTED (the solver did not
+    converge: neither a hit nor a miss)."""
 
     HIT = 0
     MISS = 1
@@ -33,7 +33,7 @@ class _Arrays:
         return len(self._first())
 
     def __getitem__(self, key):
-        """The same of some rays: an index, a slice, a mask, or an array of indices."""
+        """Selects rays by an index, a slice, a mask, or an array of indices."""
         shape = self._first().shape
         return type(self)({name: values[key] if isinstance(values, np.ndarray)
                            else _of_list(values, shape, key) for name, values in vars(self).items()})
@@ -51,7 +51,7 @@ class _Arrays:
 
 
 def _of_list(values, shape, key):
-    """Of a flat list which belongs to arrays of that shape."""
+    """Selects from a flat list that belongs to arrays of that shape."""
     array = np.empty(len(values), object)
     array[:] = values
     found = array.reshape(shape)[key]
@@ -59,39 +59,39 @@ def _of_list(values, shape, key):
 
 
 class Hits(_Arrays):
-    """What rays met, in arrays of the rays' own shape.
+    """First hits of rays, in arrays of the rays' shape.
 
-    ``hits[mask]``, ``hits[i]``, ``hits[2:5]`` and iteration give the same of some of them;
-    ``np.savez(file, **vars(hits))`` keeps all arrays.
+    ``hits[mask]``, ``hits[i]``, ``hits[2:5]`` and iteration select rays;
+    ``np.savez(file, **vars(hits))`` saves all arrays.
 
     Attributes
     ----------
     t : float64
-        Where, in lengths of the direction; inf where nothing is met.
+        Ray parameter, in lengths of the direction; inf for a miss.
     distance : float64
-        The same, in the world's unit; inf where nothing is met.
+        Distance from the origin, in the world's unit; inf for a miss.
     t_lo, t_hi : float64
-        The true t is between them.
+        Proven bounds of t.
     point, normal : float64, three numbers each
-        In the world; the point is NaN where nothing is met.
+        In the world; the point is NaN for a miss.
     object : uint32
-        Number of what is met; NO_OBJECT where nothing is. ``scene.names[hits.object]`` are names.
+        Number of the object; NO_OBJECT for a miss. ``scene.names[hits.object]`` are names.
     status : uint8
-        A `Status`: HIT, MISS, INSIDE (the ray begins in the object), or EXHAUSTED: the solver gave up, which is
-        neither a hit nor a miss.
+        A `Status`: HIT, MISS, INSIDE (the ray begins in the object) or EXHAUSTED (the solver did not
+        converge: neither a hit nor a miss).
     supports : int32
-        How often the object's support mapping was asked.
+        Number of calls of the object's support mapping.
     part : int32
-        Of a mesh the triangle that is met; -1 of all else.
+        The triangle, if the object is a mesh; else -1.
     jac_ray : float64, six numbers each
-        With ``jac=True``: the derivative of `t` by the ray's origin and by its direction; NaN where
-        nothing is met, zero where the ray begins inside.
+        With ``jac=True``: the derivative of `t` by the ray's origin and by its direction; NaN for a
+        miss, zero where the ray begins inside.
     jac_body : float64, six numbers each
-        Likewise, by a twist (v, w) of the object: by the velocity of its frame's origin along the
-        world's axes, and by its angular velocity about that point.
+        The derivative by a twist (v, w) of the object: v is the velocity of its frame's origin along
+        the world's axes, w the angular velocity about that point.
     is_ridge : bool
-        True where there may be other derivatives, or none: of a ray through an edge, that grazes a
-        shape, or that meets two objects at once.
+        True where the derivative may be ambiguous or undefined: the ray passes through an edge,
+        grazes a shape, or hits two objects at once.
     """
 
     def __repr__(self):
@@ -101,21 +101,22 @@ class Hits(_Arrays):
 
 
 class Proofs(_Arrays):
-    """Whether answers are proven, in arrays of the rays' own shape.
+    """Proofs of casts, in arrays of the rays' shape.
 
     Attributes
     ----------
     holds : bool
+        True if the result is proven.
     t_lo, t_hi : float64
-                Proven bounds of t, rounding allowed for; inf where nothing is met.
+        Proven bounds of t, including rounding; inf for a miss.
     allowed : float64
-        How far across a plane what is proven may be rounded, as a length.
+        Tolerance for rounding across a plane, as a length.
     plane : float64, three numbers each
-        A normal: nothing of the object lies beyond the plane of this normal through t_lo.
+        Normal of a plane through t_lo that the object does not cross.
     checked : uint32
-        Objects for which something had to be proven.
+        Number of objects with a proof.
     complaint : list of str
-        What does not hold.
+        The part of the proof that fails; empty if it holds.
     """
 
     def __repr__(self):
@@ -123,23 +124,23 @@ class Proofs(_Arrays):
 
 
 class Clearance(_Arrays):
-    """How near a robot comes to anything, in each step of its path: arrays of (K,).
+    """Least clearance of a robot in each step of its path: arrays of shape (K,).
 
     Attributes
     ----------
     lower, upper : float64
-        Proven: the least signed distance of the step is between them. Less than zero where things
-        overlap; inf where there is nothing to meet.
+        Proven bounds of the step's least signed distance. Negative for an overlap; inf without any
+        other object.
     row : float64
-        Where it is `upper`: 2.25 is a quarter of the way from row 2 to row 3.
+        Position of `upper` on the path: 2.25 is a quarter of the way from row 2 to row 3.
     object_a, object_b : uint32
-        Numbers of the nearest; NO_OBJECT where there are none.
+        Numbers of the nearest pair; NO_OBJECT if there is none.
     point_a, point_b, normal : float64, three numbers each
-        The nearest points there, in the world, and the direction from a to b.
+        Nearest points at `row`, in the world, and the direction from a to b.
     jac, is_ridge : (K, J) float64, (K,) bool
-        With ``jac=True``: the derivative of the distance by the joints' values at `row`, and whether
-        there may be others, as where another pair is as near then. By the two rows of the path it is
-        ``(1 - s) * jac`` and ``s * jac``, if `row` is ``s`` behind the first of them.
+        With ``jac=True``: the derivative of the distance by the joints' values at `row`, and True
+        where it may be ambiguous, for example if two pairs are equally near. The derivatives by the
+        two rows around `row` are ``(1 - s) * jac`` and ``s * jac``, with ``s`` the fraction of `row`.
     """
 
     def __repr__(self):
@@ -151,7 +152,7 @@ class Clearance(_Arrays):
 
 
 class MotionStatus(enum.IntEnum):
-    """What a motion is: proven FREE of collisions at all times, a pair COLLIDES, or UNDECIDED."""
+    """Status of a motion: FREE (proven at all times), COLLIDES, or UNDECIDED."""
 
     FREE = 0
     COLLIDES = 1
@@ -159,24 +160,24 @@ class MotionStatus(enum.IntEnum):
 
 
 class Verdict:
-    """What is proven of a robot's motion, between its rows too.
+    """Proven verdict on a robot's motion, including between its rows.
 
     Attributes
     ----------
     status : MotionStatus
         FREE, COLLIDES or UNDECIDED.
     lower, upper : float
-        Bounds of the least clearance, which is the distance less the margin. If it is not free,
-        lower is -inf, and upper less than 0 where a pair collides.
+        Bounds of the least clearance (distance minus margin). If the motion is not free, lower is
+        -inf; upper is negative for a collision.
     row : float
-        Where it is upper: 2.25 is a quarter of the way from row 2 to row 3.
+        Position of upper on the path: 2.25 is a quarter of the way from row 2 to row 3.
     begin, end : float
-        The first stretch, in rows, that collides, or may; outside of it that pair is proven apart,
-        but for its other stretches. Of a free motion both are row.
+        First interval of the path, in rows, in which the pair collides or may collide; both are row
+        for a free motion.
     object_a, object_b : int
-        Numbers of the pair; NO_OBJECT where there is none.
+        Numbers of the pair; NO_OBJECT if there is none.
     point : (3,) float64
-        In the middle between the two, or within both.
+        Midpoint between the two, or a point inside both.
     """
 
     def __init__(self, fields):

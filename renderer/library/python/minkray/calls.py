@@ -12,7 +12,7 @@ from ._minkray import Error, Shape
 
 
 def _called(function, name, arguments, named):
-    """What is wrong with how it was called; None if nothing is."""
+    """The error of a call's arguments, or None."""
     try:
         signature = inspect.signature(function)
     except ValueError:  # of what is not written in Python
@@ -26,14 +26,14 @@ def _called(function, name, arguments, named):
 
 
 def _plain(text):
-    """A message of the C interface, without the C function's name and that of the shape's kind."""
+    """A message of the C interface, without the names of the C function and of the kind of shape."""
     text = re.sub(r"^minkray(_\w+|::[\w:]+): ", "", text)
     text = re.sub(r"^\w+: /(?=\w)", "/", text)
     return re.sub(r"(?m)^/(?=\w)", "", text).replace("options.", "")
 
 
 def public(function, name=None):
-    """The function, but what is wrong with a call of it is an `Error` that begins with its name."""
+    """Wraps a function: wrong calls raise an `Error` that begins with its name."""
     name = name or function.__qualname__
 
     def failed(detail):
@@ -74,7 +74,7 @@ def shapes_of(values, argument="shapes"):
 
 
 def text_of(value, argument):
-    """The value, which must be text that C can have."""
+    """The value, which must be text without zero bytes."""
     if not isinstance(value, str):
         raise Error(f"{argument}: must be a str (got {type(value).__name__})")
     try:
@@ -87,7 +87,7 @@ def text_of(value, argument):
 
 
 def name_of(file, argument="file"):
-    """The file's name as the system has it: bytes without a zero, where C would take it to end."""
+    """The file's name in the system's encoding, without zero bytes."""
     try:
         name = os.fsencode(file)
     except (TypeError, UnicodeEncodeError):
@@ -192,5 +192,5 @@ def shapes_array(value, argument):
         return array
     rows = [shapes_array(one, f"{argument}[{i}]") for i, one in enumerate(value)]
     if any(row.shape != rows[0].shape for row in rows):
-        raise Error(f"{argument}: must be a Shape, or lists of as many each")
+        raise Error(f"{argument}: must be a Shape, or nested lists of equal lengths")
     return np.stack(rows)

@@ -11,14 +11,14 @@ from .calls import Error, array_of, name_of, public
 
 
 def _check_columns(columns, count):
-    """Their names become words in the file's header, their whole numbers have 32 bits."""
+    """Checks names, which become words of the header, and that integers fit in 32 bits."""
     for name, values in columns.items():
         array_of(values, name)
         if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_.]*", name) or name in ("x", "y", "z"):
-            raise Error(f"{name!r}: a column's name must be letters, digits, dots and lines below,"
-                             " and other than x, y and z")
+            raise Error(f"{name!r}: a column's name must be letters, digits, dots and underscores,"
+                             " and not x, y or z")
         if np.shape(values) != (count,):
-            raise Error(f"{name}: must be one number for each point (got the shape {np.shape(values)})")
+            raise Error(f"{name}: must be one number per point (got the shape {np.shape(values)})")
         values = np.asarray(values)
         if values.dtype.kind in "iu" and count and not (values.min() >= -2**31 and values.max() < 2**32):
             raise Error(f"{name}: must be numbers of 32 bits (got {values.min()} to {values.max()})")
@@ -31,17 +31,16 @@ def write(file, points, **columns):
     Parameters
     ----------
     file : str or path
-        Ends in .pcd, .ply or .npy; for pictures in .png (light as screens show it: sRGB, what is
-        brighter than 1 is white), .pfm (light as it is) or .npy.
+        Ends in .pcd, .ply or .npy; pictures in .png (sRGB, clipped at 1), .pfm (linear) or .npy.
     points : (N, 3) array
-        Points, or a picture of the shape (height, width, 3): linear light, rows from the top.
+        Points, or a picture of shape (height, width, 3): linear light, rows from the top.
     **columns : (N,) array
-        More of each point, such as ``object=hit.object``; as 32-bit floats and integers.
+        More columns, such as ``object=hit.object``; as 32-bit floats and integers.
 
     Raises
     ------
     Error
-        If the array has another shape, the file another ending, or a picture is empty or holds NaN.
+        If the array has another shape, the file another ending, or a picture is empty or contains NaN.
 
     Examples
     --------

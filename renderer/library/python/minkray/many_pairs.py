@@ -11,32 +11,31 @@ from .calls import Error, array_of, number_of, public, shapes_array, vectors_of,
 
 
 class Distances(_Arrays):
-    """How far apart pairs of shapes are: arrays in the shape that the arguments have together, (N,).
+    """Signed distances of many pairs: arrays in the broadcast shape of the arguments, (N,).
 
     Attributes
     ----------
     value : (N,) float64
-        In the world's unit; less than zero where they overlap: how deep.
+        The distance in the world's unit; for an overlap minus the penetration depth.
     lower, upper : (N,) float64
-        Proven: ``lower <= value <= upper``.
+        Proven bounds: ``lower <= value <= upper``.
     normal : (N, 3) float64
-        From a to b, in the world, of length 1.
+        Unit vector from a to b, in the world.
     point_a, point_b : (N, 3) float64
-        The nearest points, in the world: ``point_b - point_a = value * normal``.
+        Nearest points, in the world: ``point_b - point_a = value * normal``.
     status : (N,) uint8
         A `DistanceStatus`.
     supports : (N,) int32
-        How many support points were asked for.
+        Number of support points computed.
     jac_a, jac_b : (N, 6) float64
-        With ``jac=True``: the derivative of `value` by a twist (v, w) of each body: by the velocity of
-        its frame's origin along the world's axes, then by its angular velocity about that point.
+        With ``jac=True``: the derivative of `value` by a twist (v, w) of each body: v is the velocity
+        of its frame's origin along the world's axes, w the angular velocity about that point.
     is_ridge : (N,) bool
-        With ``jac=True``: True where the bounds do not exclude other derivatives, as of parallel
-        faces; `jac_a` and `jac_b` are one of them then.
+        With ``jac=True``: True where the bounds do not exclude other derivatives, as for parallel
+        faces; `jac_a` and `jac_b` are one of them.
     jac_error_a, jac_error_b : (N, 2) float64
-        With ``jac_error=True``: bounds of the length of the error of `jac_a` and `jac_b`, by velocity and by
-        angular velocity; inf where nothing is known: on ridges, of meshes, of some depths, of turns
-        about points on surfaces of unknown curvature.
+        With ``jac_error=True``: bounds of the error (length) of `jac_a` and `jac_b`, for v and for w;
+        inf if unknown: on ridges, for meshes, some depths, and w at surfaces of unknown curvature.
     """
 
     def __repr__(self):
@@ -45,24 +44,25 @@ class Distances(_Arrays):
 
 
 class Impacts(_Arrays):
-    """When pairs of moving shapes first touch: arrays in the shape that the arguments have together.
+    """Times of impact of many moving pairs: arrays in the broadcast shape of the arguments.
 
     Attributes
     ----------
     t_lo, t_hi : (N,) float64
-        They are apart before t_lo, which is proven, and touch at t_hi. Of those that do not touch
-        t_lo is t_max, and t_hi is inf.
+        The shapes are proven apart before t_lo and touch at t_hi. Without contact t_lo is t_max and
+        t_hi is inf.
     normal, point_a, point_b : (N, 3) float64
         At t_lo, in the world.
     distance : (N,) float64
-        At t_lo; inf where it is not known.
+        At t_lo; inf if unknown.
     status : (N,) uint8
         An `ImpactStatus`.
     jac_a, jac_b : (N, 6) float64
         With ``jac=True``: the derivative of the time by a twist (v, w) of each body's pose at time 0, as
-        of `Distances`; NaN where there is no contact, zero where they begin inside each other.
+        in `Distances`; NaN without contact, zero if they overlap at time 0.
     is_ridge : (N,) bool
-        With ``jac=True``: True where there may be others, or none, as where they graze.
+        With ``jac=True``: True where the derivative may be ambiguous or undefined, as for a grazing
+        contact.
     """
 
     def __repr__(self):
@@ -70,20 +70,20 @@ class Impacts(_Arrays):
 
 
 class Manifolds(_Arrays):
-    """Points of contact: arrays in the shape that the arguments have together.
+    """Contact points of many pairs: arrays in the broadcast shape of the arguments.
 
     Attributes
     ----------
     count : (N,) int32
-        Up to four; 0 where nothing is known of the distance.
+        Number of points, up to four; 0 if the distance is unknown.
     normal : (N, 3) float64
-        From a to b, in the world, of length 1.
+        Unit vector from a to b, in the world.
     points : (N, 4, 3) float64
-        In the middle between those of the two bodies, in the world; NaN from `count` on.
+        Midpoints between points_a and points_b, in the world; NaN from index `count` on.
     points_a, points_b : (N, 4, 3) float64
-        On the bodies: ``points_b - points_a = gaps * normal``. The first are those of the distance.
+        On the bodies: ``points_b - points_a = gaps * normal``. The first are the nearest points.
     gaps : (N, 4) float64
-        Less than zero: so deep are the two in each other there.
+        Distance at each point; negative: penetration depth.
     value, lower, upper : (N,) float64
         The signed distance and its bounds.
     status : (N,) uint8
@@ -111,7 +111,7 @@ _MATRIX, _QUATERNION, _MATRIX_4X4 = range(3)
 
 
 def poses_array(value, argument):
-    """Poses as they are given, of which kind, and how many axes are of one pose."""
+    """Returns the poses as given, their kind, and the number of axes of one pose."""
     if value is None:
         return np.eye(4)[:3], 2, _MATRIX
     if isinstance(value, (list, tuple)) and any(one is None for one in value):
@@ -128,22 +128,22 @@ def poses_array(value, argument):
 
 
 class Together:
-    """Arguments that go together, as NumPy's rules of broadcasting have it."""
+    """Arguments broadcast together by NumPy's rules."""
 
     def __init__(self, **arguments):
-        """Takes an array and how many axes of it are of one pair, for each argument."""
+        """Takes an array and its number of axes per pair, for each argument."""
         self._given = arguments
         leads = [array.shape[:array.ndim - own] for array, own in arguments.values()]
         try:
             shape = np.broadcast_shapes(*leads)
         except ValueError:
             found = ", ".join(f"{name} {lead}" for name, lead in zip(arguments, leads))
-            raise Error(f"{', '.join(arguments)}: must be as many each, or one (got {found})") from None
+            raise Error(f"{', '.join(arguments)}: must have the same length, or one entry (got {found})") from None
         self.shape = shape or (1,)
         self.count = math.prod(self.shape)
 
     def __getitem__(self, name):
-        """In rows: one for all pairs, or one for each. Not copied where nothing has to be."""
+        """Rows: one for all pairs, or one per pair. Copied only if necessary."""
         array, own = self._given[name]
         lead, tail = array.shape[:array.ndim - own], array.shape[array.ndim - own:]
         if math.prod(lead) == 1 and self.count != 0:
@@ -152,7 +152,7 @@ class Together:
 
 
 def _rows_in_one_piece(array):
-    """The array, in which each row lies in one piece, on addresses of doubles; a copy if need be."""
+    """The array with contiguous, aligned rows; a copy if necessary."""
     if array.shape[0] == 0 or (array[0].flags.c_contiguous and array.flags.aligned
                                and array.strides[0] % array.itemsize == 0):
         return array
@@ -160,7 +160,7 @@ def _rows_in_one_piece(array):
 
 
 class Sides:
-    """Both bodies of many pairs, as the module has them."""
+    """Both bodies of many pairs, as the extension module takes them."""
 
     def __init__(self, a, pose_a, b, pose_b, **more):
         self._kinds, given = {}, {}
@@ -180,7 +180,7 @@ class Sides:
 
 
 def room(kind, fields, shape, out):
-    """Arrays for an answer: new ones, or those of `out`."""
+    """Arrays for a result: new ones, or those of `out`."""
     if out is None:
         return {name: np.empty(shape + tail, dtype) for name, (tail, dtype) in fields.items()}
     if not isinstance(out, (kind, dict)):
@@ -195,7 +195,7 @@ def room(kind, fields, shape, out):
             raise Error(f"out[{name!r}]: must be an array of {np.dtype(dtype)} of the shape {shape + tail} "
                         f"(got {found})")
         if not (array.flags.c_contiguous and array.flags.writeable and array.flags.aligned):
-            raise Error(f"out[{name!r}]: must lie in one piece, and be writeable")
+            raise Error(f"out[{name!r}]: must be contiguous and writeable")
     return arrays
 
 
@@ -204,7 +204,7 @@ def _memory(memory, shape):
         return None
     if (not isinstance(memory, np.ndarray) or memory.dtype != np.float64 or memory.shape != shape + (8,)
             or not (memory.flags.c_contiguous and memory.flags.writeable and memory.flags.aligned)):
-        raise Error(f"memory: must be what pair_memory({shape[0] if len(shape) == 1 else shape}) makes (got "
+        raise Error(f"memory: must be made by pair_memory({shape[0] if len(shape) == 1 else shape}) (got "
                     f"{getattr(memory, 'shape', type(memory).__name__)})")
     return memory
 
@@ -219,8 +219,8 @@ def threads_of(number):
     return whole_number_of(number, "threads", 1024)
 
 
-def told(call, *arguments):
-    """Calls it; its errors name arguments as they are here."""
+def call_c(call, *arguments):
+    """Calls a function of the C interface; errors name the arguments of Python."""
     try:
         call(*arguments)
     except Error as error:
@@ -235,20 +235,20 @@ def told(call, *arguments):
 
 @public
 def pair_memory(shape):
-    """Memories of pairs for ``memory=``, to be kept from one call to the next.
+    """Warm-start memory for ``memory=``, one row per pair, reused from call to call.
 
-    A call begins with what the last one on these pairs left in it: where bodies move little, it is
-    faster. The bounds hold whatever is in it; the last digits of answers depend on it.
+    A call starts from the result of the last call on the same pairs, which is faster if bodies move
+    little. Bounds hold for any content; the last digits of results depend on it.
 
     Parameters
     ----------
     shape : int or tuple of int
-        How many pairs.
+        Number of pairs.
 
     Returns
     -------
     (N, 8) array of float64
-        Empty memories; the numbers in them mean nothing.
+        Empty memory; its numbers have no meaning.
 
     Examples
     --------
@@ -264,29 +264,28 @@ def pair_memory(shape):
 @public
 def signed_distances(a, pose_a, b, pose_b, *, jac=False, jac_error=False, tolerance=1e-10, memory=None,
                      threads=0, out=None, progress=None):
-    """How far apart the shapes of many pairs are, or how deep in each other.
+    """Signed distances of many pairs of shapes.
 
     Parameters
     ----------
     a, b : Shape, or list of N of them
     pose_a, pose_b : (N, 4, 4), (N, 3, 4) or (N, 7) array, or one of them, or None
-        Where they stand, from the shape's frame to the world; rigid. Seven numbers are
-        (x, y, z, qw, qx, qy, qz). One shape or pose goes with N of the others, and more axes go
-        together by NumPy's rules of broadcasting.
+        From the shape's frame to the world; rigid. Seven numbers are (x, y, z, qw, qx, qy, qz). All
+        arguments follow NumPy's broadcasting, for example one shape with N poses.
     jac : bool
-        Whether derivatives are told, too.
+        Add derivatives.
     jac_error : bool
         Add bounds of the derivatives' errors.
     tolerance : float
-        Of the bounds, relative to the shapes' sizes.
+        Gap between the bounds, relative to the shapes' sizes.
     memory : (N, 8) array, optional
-        Of `pair_memory`, read and written.
+        Made by `pair_memory`; read and written.
     threads : int
-        0 for one a core. The answers are the same bits for any number.
+        0: one per core. Results are bit-identical for any number.
     out : Distances, or dict of arrays, optional
-        An earlier answer, whose arrays are filled again; of a dict, those that are in it.
+        Arrays to fill, such as an earlier result; of a dict only those that are present.
     progress : callable, optional
-        Called now and then with the part that is done; if it answers True the work is stopped.
+        Called from time to time with the fraction done; return True to stop.
 
     Returns
     -------
@@ -295,7 +294,7 @@ def signed_distances(a, pose_a, b, pose_b, *, jac=False, jac_error=False, tolera
     Raises
     ------
     Error
-        If there are not as many of each, or one; if a pose is not finite or not rigid: it says which.
+        If lengths do not match, or a pose is not finite or not rigid; names the pose.
 
     Examples
     --------
@@ -307,7 +306,7 @@ def signed_distances(a, pose_a, b, pose_b, *, jac=False, jac_error=False, tolera
     sides = Sides(a, pose_a, b, pose_b)
     shape = sides.together.shape
     arrays = room(Distances, {**_DISTANCES, **(_JAC if jac else {}), **(_JAC_ERROR if jac_error else {})}, shape, out)
-    told(_minkray.signed_distances, sides.side("a"), sides.side("b"), sides.together.count,
+    call_c(_minkray.signed_distances, sides.side("a"), sides.side("b"), sides.together.count,
          number_of(tolerance, "tolerance"), _memory(memory, shape), arrays, threads_of(threads),
          _progress(progress))
     return out if isinstance(out, Distances) else Distances(arrays)
@@ -320,20 +319,20 @@ def twists_array(value, argument):
 @public
 def times_of_impact(a, pose_a, twist_a, b, pose_b, twist_b, t_max=1.0, *, jac=False, memory=None, threads=0,
                     out=None, progress=None):
-    """The first contacts of the shapes of many pairs that move and turn, at times from 0 to `t_max`.
+    """First contacts of many pairs of moving and turning shapes, at times from 0 to `t_max`.
 
     Parameters
     ----------
     a, b : Shape, or list of N of them
     pose_a, pose_b : (N, 4, 4), (N, 3, 4) or (N, 7) array, or one of them, or None
-        At time 0; as of `signed_distances`.
+        At time 0; as for `signed_distances`.
     twist_a, twist_b : (N, 6) or (6,) array, or None
-        A velocity, and a rotation vector per unit of time, in the world, about the origin of the
-        shape's frame: the point that the pose's last column says. None for at rest.
+        Velocity, and rotation vector per unit of time, in the world, about the origin of the shape's
+        frame (the last column of the pose). None: at rest.
     t_max : float or (N,) array
-        At least 0, and finite.
+        Finite, at least 0.
     jac, memory, threads, out, progress
-        As of `signed_distances`; `out` is Impacts.
+        As for `signed_distances`; `out` is Impacts.
 
     Returns
     -------
@@ -342,36 +341,36 @@ def times_of_impact(a, pose_a, twist_a, b, pose_b, twist_b, t_max=1.0, *, jac=Fa
     Raises
     ------
     Error
-        As `signed_distances` does.
+        As for `signed_distances`.
     """
     sides = Sides(a, pose_a, b, pose_b, twist_a=(twists_array(twist_a, "twist_a"), 1),
                   twist_b=(twists_array(twist_b, "twist_b"), 1),
                   t_max=(array_of(t_max, "t_max", "a number, or one for each pair"), 0))
     shape = sides.together.shape
     arrays = room(Impacts, {**_IMPACTS, **_JAC} if jac else _IMPACTS, shape, out)
-    told(_minkray.times_of_impact, sides.side("a"), sides.side("b"), sides.together.count,
+    call_c(_minkray.times_of_impact, sides.side("a"), sides.side("b"), sides.together.count,
          sides.together["t_max"], _memory(memory, shape), arrays, threads_of(threads), _progress(progress))
     return out if isinstance(out, Impacts) else Impacts(arrays)
 
 
 @public
 def manifolds(a, pose_a, b, pose_b, *, tolerance=1e-10, memory=None, threads=0, out=None, progress=None):
-    """Up to four points of contact of each of many pairs: of a box on a plate its corners.
+    """Up to four contact points per pair, such as the corners of a box on a plate.
 
     Parameters
     ----------
     a, b, pose_a, pose_b, tolerance, memory, threads, out, progress
-        As of `signed_distances`; `out` is Manifolds.
+        As for `signed_distances`; `out` is Manifolds.
 
     Returns
     -------
     Manifolds
-        Those of pairs that are apart, too: where they are nearest.
+        For separated pairs: the nearest points.
 
     Raises
     ------
     Error
-        As `signed_distances` does.
+        As for `signed_distances`.
 
     Examples
     --------
@@ -383,7 +382,7 @@ def manifolds(a, pose_a, b, pose_b, *, tolerance=1e-10, memory=None, threads=0, 
     sides = Sides(a, pose_a, b, pose_b)
     shape = sides.together.shape
     arrays = room(Manifolds, _MANIFOLDS, shape, out)
-    told(_minkray.manifolds, sides.side("a"), sides.side("b"), sides.together.count,
+    call_c(_minkray.manifolds, sides.side("a"), sides.side("b"), sides.together.count,
          number_of(tolerance, "tolerance"), _memory(memory, shape), arrays, threads_of(threads),
          _progress(progress))
     return out if isinstance(out, Manifolds) else Manifolds(arrays)

@@ -10,8 +10,8 @@ from .calls import Error, array_of, number_of, poses_of, public, shapes_array, v
 
 
 class DistanceStatus(enum.IntEnum):
-    """What two shapes are: SEPARATED, TOUCHING (the bounds are on both sides of 0), OVERLAPPING, or
-    UNDECIDED: the bounds hold, but are further apart than was asked."""
+    """Status of a distance: SEPARATED, TOUCHING (0 is between the bounds), OVERLAPPING, or UNDECIDED
+    (the bounds hold, but their gap is larger than requested)."""
 
     SEPARATED = 0
     TOUCHING = 1
@@ -20,8 +20,8 @@ class DistanceStatus(enum.IntEnum):
 
 
 class ImpactStatus(enum.IntEnum):
-    """What becomes of two that move: IMPACT, NO_IMPACT (proven), BEGINS_INSIDE, or UNDECIDED: there is
-    no contact before t_lo, and no more is known."""
+    """Status of a motion of two shapes: IMPACT, NO_IMPACT (proven), BEGINS_INSIDE, or UNDECIDED (no
+    contact before t_lo; later contact is unknown)."""
 
     IMPACT = 0
     NO_IMPACT = 1
@@ -45,57 +45,57 @@ class _Answer:
 
 
 class Distance(_Answer):
-    """How far apart two shapes are.
+    """Signed distance of two shapes.
 
     Attributes
     ----------
     value : float or (...) array
-        Less than zero where they overlap: how deep.
+        The distance; for an overlap minus the penetration depth.
     lower, upper : float or (...) array
-        Proven: ``lower <= value <= upper``.
+        Proven bounds: ``lower <= value <= upper``.
     point_a, point_b : (..., 3) array
-        The nearest points: ``point_b - point_a = value * normal``.
+        Nearest points: ``point_b - point_a = value * normal``.
     normal : (..., 3) array
-        From a to b, of length 1.
+        Unit vector from a to b.
     status : DistanceStatus or (...) array
         SEPARATED, TOUCHING, OVERLAPPING or UNDECIDED.
     """
 
 
 class Impact(_Answer):
-    """When two moving shapes first touch.
+    """Time of impact of two moving shapes.
 
     Attributes
     ----------
     t_lo, t_hi : float or (...) array
-        They are apart before t_lo, which is proven, and touch at t_hi. Of those that do not touch
-        t_lo is t_max, and t_hi is inf.
+        The shapes are proven apart before t_lo and touch at t_hi. Without contact t_lo is t_max and
+        t_hi is inf.
     point_a, point_b, normal : (..., 3) array
-        At t_lo.
+        Nearest points and direction at t_lo.
     distance : float or (...) array
-        At t_lo; inf where it is not known.
+        At t_lo; inf if unknown.
     status : ImpactStatus or (...) array
         IMPACT, NO_IMPACT (proven), BEGINS_INSIDE or UNDECIDED.
     """
 
 
 class _Pairs:
-    """Arguments that go together, as NumPy's rules of broadcasting have it."""
+    """Arguments broadcast together by NumPy's rules."""
 
     def __init__(self, **arguments):
-        """Takes an array and how many axes of it are of one pair, for each argument."""
+        """Takes an array and its number of axes per pair, for each argument."""
         self._given = arguments
         shapes = [array.shape[:array.ndim - own] for array, own in arguments.values()]
         lists = {shape for shape in shapes if shape} or {()}
         try:
             self.shape = lists.pop() if len(lists) == 1 else np.broadcast_shapes(*lists)
         except ValueError:
-            raise Error(f"{', '.join(arguments)}: must have shapes that go together (got "
+            raise Error(f"{', '.join(arguments)}: must have shapes that broadcast together (got "
                         f"{', '.join(map(str, shapes))})") from None
         self.count = math.prod(self.shape)
 
     def __getitem__(self, name):
-        """Numbers, or a list of shapes: of one pair if all have the same, else of each."""
+        """Numbers or a list of shapes: one for all pairs, or one per pair."""
         array, own = self._given[name]
         tail = array.shape[array.ndim - own:]
         if array.size != math.prod(tail):
@@ -103,7 +103,7 @@ class _Pairs:
         return array.ravel().tolist() if array.dtype == object else np.ascontiguousarray(array)
 
     def answer(self, kind, status, fields):
-        """Its fields in the arguments' shape; of one pair they are numbers."""
+        """The fields in the arguments' shape; numbers for one pair."""
         if self.shape == ():
             return kind({name: status(int(values[0])) if name == "status"
                          else values[0] if values.ndim > 1 else float(values[0])
@@ -113,21 +113,21 @@ class _Pairs:
 
 @public
 def signed_distance(a, pose_a, b, pose_b, tolerance=1e-10):
-    """How far apart two shapes are, or how deep in each other.
+    """Signed distance of two shapes: positive apart, negative penetration depth.
 
     Parameters
     ----------
     a, b : Shape, or list of them
     pose_a, pose_b : (4, 4) or (..., 4, 4) array, or None
-        Where they stand; None for the identity. Lists of shapes and poses go together by NumPy's
-        rules of broadcasting: one shape at N poses, N shapes at one, N at N.
+        From the shape's frame to the world; None for the identity. Lists of shapes and poses follow
+        NumPy's broadcasting: one shape at N poses, N shapes at one pose, N at N.
     tolerance : float
-        Relative tolerance of the bounds, in sizes of the shapes.
+        Gap between the bounds, relative to the shapes' sizes.
 
     Returns
     -------
     Distance
-        Of arrays, if there is a list of shapes or of poses.
+        With arrays, if shapes or poses are lists.
 
     Examples
     --------
@@ -150,23 +150,23 @@ def _twists(value, argument):
 
 @public
 def time_of_impact(a, pose_a, twist_a, b, pose_b, twist_b, t_max=1.0):
-    """The first contact of two shapes that move and turn, at times from 0 to `t_max`.
+    """First contact of two moving and turning shapes, at times from 0 to `t_max`.
 
     Parameters
     ----------
     a, b : Shape, or list of them
     pose_a, pose_b : (4, 4) or (..., 4, 4) array, or None
-        At time 0. All arguments go together as those of `signed_distance`.
+        At time 0. All arguments broadcast together, as for `signed_distance`.
     twist_a, twist_b : (6,) or (..., 6) array, or None
-        A velocity, and a rotation vector per unit of time, in the world, about the origin of the
-        shape's frame: the point that the pose's last column says.
+        Velocity, and rotation vector per unit of time, in the world, about the origin of the shape's
+        frame (the last column of the pose). None: at rest.
     t_max : float or (...) array
-        At least 0, and finite.
+        Finite, at least 0.
 
     Returns
     -------
     Impact
-        Of arrays, if any argument is a list.
+        With arrays, if any argument is a list.
     """
     pairs = _Pairs(a=(shapes_array(a, "a"), 0), pose_a=(poses_of(pose_a, "pose_a"), 2),
                    twist_a=(_twists(twist_a, "twist_a"), 1), b=(shapes_array(b, "b"), 0),

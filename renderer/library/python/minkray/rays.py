@@ -10,13 +10,13 @@ from .calls import Error, name_of, pose_of, public, vectors_of, whole_number_of
 
 @public
 def pinhole(K, pose, width, height):
-    """The rays of a pinhole camera through the middles of its pixels.
+    """The rays of a pinhole camera through its pixel centres.
 
     Parameters
     ----------
     K : (3, 3) array
         In pixels; the frame is OpenCV's: x right, y down, z ahead. The upper left corner of the
-        picture is at (0, 0), the middle of its first pixel at (0.5, 0.5).
+        picture is at (0, 0), the centre of its first pixel at (0.5, 0.5).
     pose : (4, 4) array or None
         Of the camera, in the world.
     width, height : int
@@ -53,22 +53,22 @@ def pinhole(K, pose, width, height):
 
 @public
 def camera(calibration, pose=None):
-    """The rays of a calibrated camera through the middles of its pixels.
+    """The rays of a calibrated camera through its pixel centres.
 
     Parameters
     ----------
     calibration : dict
-        ``fx, fy, cx, cy, width, height`` in pixels, and if wanted ``model`` ("pinhole" or "fisheye"),
-        ``k1`` to ``k6`` (fisheyes ``k4``), ``p1`` and ``p2``, as OpenCV has them: the middle of the
-        first pixel is at (0, 0).
+        ``fx, fy, cx, cy, width, height`` in pixels, and optionally ``model`` ("pinhole" or "fisheye"),
+        ``k1`` to ``k6`` (fisheyes ``k4``), ``p1`` and ``p2``, as in OpenCV: the centre of the first
+        pixel is at (0, 0).
     pose : (4, 4) array, optional
         Of the camera, in the world: x right, y down, z ahead.
 
     Returns
     -------
     (height, width, 6) array of float64
-        Directions have z = 1 in the camera's frame, so `t` is the depth; of fisheyes length 1. They
-        are NaN where the distortion has no inverse.
+        Directions have z = 1 in the camera's frame, so `t` is the depth; for fisheyes they have
+        length 1. NaN where the distortion has no inverse.
 
     Examples
     --------
@@ -94,18 +94,18 @@ def lidar(pattern, pose=None):
     Parameters
     ----------
     pattern : str or tuple
-        A lidar's name: "VLP-16", "VLP-32C", "HDL-64E", "OS1-64" or "Mid-360"; a file: .csv of azimuths
-        and zeniths as Livox publishes them, .json of elevations or of Ouster's, .mat3x4f of
-        RobotecGPULidar; or a sensor that spins: ``(channels, steps)``, or ``(channels, steps, lowest,
-        highest)`` with elevations in degrees (else -15 and 15). Its rays come channel by channel
-        from the highest, clockwise from behind: ``rays.reshape(channels, steps, 6)`` is an image.
+        Name of a lidar: "VLP-16", "VLP-32C", "HDL-64E", "OS1-64" or "Mid-360". Or a file: .csv of
+        azimuths and zeniths (Livox), .json of elevations (also Ouster's), .mat3x4f (RobotecGPULidar).
+        Or a spinning sensor: ``(channels, steps)`` or ``(channels, steps, lowest, highest)`` with
+        elevations in degrees (default -15 and 15). Its rays are ordered by channel from the highest,
+        clockwise from behind: ``rays.reshape(channels, steps, 6)`` is an image.
     pose : (4, 4) array, optional
         Of the sensor, in the world; x is ahead, z the axis.
 
     Returns
     -------
     (N, 6) array of float64
-        Origins and directions, these of length 1, so that `t` is the distance.
+        Origins and unit directions, so `t` is the distance.
 
     Examples
     --------

@@ -1,21 +1,21 @@
 # SPDX-License-Identifier: MIT
-"""What came from one file, with joints that move."""
+"""Objects of one file, with movable joints."""
 import numpy as np
 
 from .calls import Error, array_of, given_pose_of, public
 
 
 class _Joints:
-    """Values of joints by name: assigning moves the robot at the next question."""
+    """Joint values by name: assigning moves the robot at the next query."""
 
     def __init__(self, group, changed):
         self._group, self._changed = group, changed
 
     def set(self, name, value):
-        """Sets one, by the name of the joint."""
+        """Sets the value of a joint."""
         names = self._group.joints
         if name not in names:
-            raise Error(f"must be the name of one that moves: {', '.join(names) or 'there is none'} "
+            raise Error(f"must be the name of a movable joint: {', '.join(names) or 'none'} "
                         f"(got {name!r})")
         numbers = array_of(value, name)
         if not np.isfinite(numbers).all():
@@ -24,10 +24,10 @@ class _Joints:
         self._changed()
 
     def get(self, name):
-        """What one is set to."""
+        """Returns the value of a joint."""
         names = self._group.joints
         if name not in names:
-            raise Error(f"must be the name of one that moves: {', '.join(names) or 'there is none'} "
+            raise Error(f"must be the name of a movable joint: {', '.join(names) or 'none'} "
                         f"(got {name!r})")
         value = self._group.value(names.index(name))
         return float(value[0]) if len(value) == 1 else value
@@ -63,16 +63,16 @@ class _Joints:
 
 
 class Robot:
-    """What came from one file.
+    """Objects of one file.
 
     Attributes
     ----------
     objects : range
-        Their numbers.
+        Numbers of the objects.
     joint_names : list of str
     joints : mapping
         ``robot.joints["elbow"] = 0.4``, or ``robot.joints = {...}``, or an array in the order of
-        `joint_names`: radians or lengths. ``robot.joints["elbow"]`` is what it is set to.
+        `joint_names`: radians or lengths. ``robot.joints["elbow"]`` is its value.
     """
 
     def __init__(self, group, scene, changed):
@@ -82,12 +82,12 @@ class Robot:
 
     @property
     def joint_names(self):
-        """list of str : those of the joints that move, in the file's order."""
+        """list of str : names of movable joints, in the file's order."""
         return self._group.joints
 
     @property
     def joints(self):
-        """mapping : values by name, in radians or lengths; assigning moves the robot."""
+        """mapping : joint values by name (radians or lengths); assigning moves the robot."""
         return self._joints
 
     @joints.setter
@@ -104,14 +104,14 @@ class Robot:
             values = dict(zip(names, values))
         unknown = [name for name in values.keys() if name not in names]
         if unknown:
-            raise Error(f"must be names of those that move: {', '.join(names) or 'there is none'} "
+            raise Error(f"must be names of movable joints: {', '.join(names) or 'none'} "
                         f"(got {unknown[0]!r})")
         for name, value in values.items():
             self._joints.set(name, value)
 
     @public
     def set_pose(self, pose):
-        """Moves all of it.
+        """Moves all objects of the file.
 
         Parameters
         ----------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Scenes, and what is asked of them."""
+"""Scenes and their queries."""
 import json
 import threading
 
@@ -19,7 +19,7 @@ def _threads(number):
 
 
 class _Names(list):
-    """Names by number. Of a miss and of a removed object it is None; of an array of numbers, a list."""
+    """Names by number: None for a miss and for removed objects; a list for an array of numbers."""
 
     def __getitem__(self, number):
         if isinstance(number, np.ndarray) and number.ndim > 0:
@@ -30,16 +30,15 @@ class _Names(list):
 
 
 class Scene(PairsOfScene):
-    """Shapes with poses, that rays are cast at.
+    """Objects with poses, for ray casts, distances and pictures.
 
-    What is added, moved or removed counts from the next question on. Any number of threads may ask a
-    scene. Changing one while another thread, or the caller of a callback, asks it is an Error, and
-    changes nothing.
+    Changes take effect at the next query. Any number of threads may query a scene. Changing it
+    during a query (in another thread or in a callback) raises an Error and changes nothing.
     """
 
     def __init__(self):
         self._scene = _minkray.Scene()
-        self._changes = 1  # counted, so that one that comes while another thread commits is seen
+        self._changes = 1  # a count detects a change while another thread commits
         self._committed = 0
         self._commits = threading.Lock()
         self._removed = set()
@@ -78,7 +77,7 @@ class Scene(PairsOfScene):
         Parameters
         ----------
         normal : (3,) array
-            Of any length but zero.
+            Of any length except zero.
         offset : float
             In the world's unit of length.
         name : str, optional
@@ -97,23 +96,23 @@ class Scene(PairsOfScene):
     @public
     def add_file(self, file, pose=None, geometry="visual", keyframe="", package_dirs=(),
                  skip_missing_meshes=False, meshes=""):
-        """Adds what is in a file: a scene of Minkray's (.json), or a robot (URDF, MJCF, SDF, glTF).
+        """Adds a file: a scene of Minkray (.json), or a robot (URDF, MJCF, SDF, glTF).
 
         Parameters
         ----------
         file : str or path
         pose : (4, 4) array, optional
-            Of all that is in it.
+            Of the file's contents.
         geometry : {'visual', 'collision', 'all'}
-            Of robots.
+            Shapes of robots to use.
         keyframe : str
-            Of MJCF.
+            Keyframe of an MJCF file.
         package_dirs : list of str
-            Where ``package://`` and ``model://`` are looked for.
+            Folders to search for ``package://`` and ``model://``.
         skip_missing_meshes : bool
         meshes : {'', 'exact', 'hull'}
-            Of robots: the triangles of their mesh files, or their convex hulls. The default is
-            exact, but of MJCF the hull for contact, as MuJoCo has it.
+            Robots' mesh files: their triangles, or their convex hulls. The default is exact, except
+            for contact of MJCF, which uses the hull as MuJoCo does.
 
         Returns
         -------
@@ -130,18 +129,18 @@ class Scene(PairsOfScene):
 
     @public
     def add_json(self, file, pose=None):
-        """Adds a scene file of Minkray's; see `add_file`.
+        """Adds a scene file of Minkray; see `add_file`.
 
         Parameters
         ----------
         file : str or path
         pose : (4, 4) array, optional
-            Of all that is in it.
+            Of the file's contents.
 
         Returns
         -------
         Robot
-            Of no joints.
+            Without joints.
         """
         return self.add_file(file, pose)
 
@@ -154,10 +153,10 @@ class Scene(PairsOfScene):
         ----------
         file : str or path
         pose : (4, 4) array, optional
-            Of all that is in it.
+            Of the file's contents.
         geometry : {'visual', 'collision', 'all'}
         package_dirs : list of str
-            Where ``package://`` and ``model://`` are looked for.
+            Folders to search for ``package://`` and ``model://``.
         skip_missing_meshes : bool
         meshes : {'', 'exact', 'hull'}
 
@@ -170,16 +169,16 @@ class Scene(PairsOfScene):
     @public
     def add_mjcf(self, file, pose=None, geometry="visual", keyframe="", skip_missing_meshes=False,
                  meshes=""):
-        """Adds what is in an MJCF file, MuJoCo's format; see `add_file`.
+        """Adds an MJCF file, MuJoCo's format; see `add_file`.
 
         Parameters
         ----------
         file : str or path
         pose : (4, 4) array, optional
-            Of all that is in it.
+            Of the file's contents.
         geometry : {'visual', 'collision', 'all'}
         keyframe : str
-            In whose pose it stands.
+            Keyframe with the initial pose.
         skip_missing_meshes : bool
         meshes : {'', 'exact', 'hull'}
 
@@ -192,16 +191,16 @@ class Scene(PairsOfScene):
     @public
     def add_sdf(self, file, pose=None, geometry="visual", package_dirs=(), skip_missing_meshes=False,
                  meshes=""):
-        """Adds what is in an SDF file, Gazebo's format; see `add_file`.
+        """Adds an SDF file, Gazebo's format; see `add_file`.
 
         Parameters
         ----------
         file : str or path
         pose : (4, 4) array, optional
-            Of all that is in it.
+            Of the file's contents.
         geometry : {'visual', 'collision', 'all'}
         package_dirs : list of str
-            Where ``package://`` and ``model://`` are looked for.
+            Folders to search for ``package://`` and ``model://``.
         skip_missing_meshes : bool
         meshes : {'', 'exact', 'hull'}
 
@@ -213,13 +212,13 @@ class Scene(PairsOfScene):
 
     @public
     def add_gltf(self, file, pose=None):
-        """Adds what is in a glTF file; see `add_file`.
+        """Adds a glTF file; see `add_file`.
 
         Parameters
         ----------
         file : str or path
         pose : (4, 4) array, optional
-            Of all that is in it.
+            Of the file's contents.
 
         Returns
         -------
@@ -243,12 +242,12 @@ class Scene(PairsOfScene):
 
     @public
     def remove(self, object):
-        """Takes an object out, so that rays no longer meet it.
+        """Removes an object.
 
         Parameters
         ----------
         object : int
-            Its number, which is never used again. All other numbers stay.
+            Its number, which is never reused. All other numbers stay the same.
         """
         number = whole_number_of(object, "object")
         self._scene.remove(number)
@@ -257,7 +256,7 @@ class Scene(PairsOfScene):
 
     @public
     def pose(self, object):
-        """Where an object stands.
+        """Pose of an object.
 
         Parameters
         ----------
@@ -274,10 +273,9 @@ class Scene(PairsOfScene):
     @property
     @public
     def names(self):
-        """list of str : the objects' names, by their numbers.
+        """list of str : names of the objects by number.
 
-        ``names[hits.object]`` is a list of names; that of a miss (NO_OBJECT), and of an object that was
-        removed, is None.
+        ``names[hits.object]`` is a list of names; None for a miss (NO_OBJECT) and for removed objects.
         """
         return _Names(None if i in self._removed else self._scene.name(i) for i in range(len(self)))
 
@@ -291,14 +289,14 @@ class Scene(PairsOfScene):
 
     @public
     def commit(self):
-        """Makes ready what was added or moved. Questions do it themselves where it is due."""
+        """Applies changes. Queries do so themselves if necessary."""
         changes = self._changes
         self._scene.commit()
         self._committed = changes
 
     def _ready(self):
         if self._committed != self._changes:
-            # From within a support function that the commit itself calls, waiting would have no end.
+            # A support function that the commit itself calls must not wait for it.
             if _minkray.is_in_support():
                 self.commit()
             with self._commits:
@@ -312,11 +310,11 @@ class Scene(PairsOfScene):
         if rays.ndim == 0 or rays.shape[-1] != 6:
             raise Error(f"rays: must have the shape (..., 6) (got {rays.shape})")
         if t_max is not None:
-            t_max = array_of(t_max, "t_max", "a number, or one for each ray")
+            t_max = array_of(t_max, "t_max", "a number, or one per ray")
             try:
                 t_max = np.broadcast_to(t_max, rays.shape[:-1]).ravel() if t_max.ndim > 0 else t_max
             except ValueError:
-                raise Error(f"t_max: must be a number, or one for each ray (got the shape {t_max.shape} "
+                raise Error(f"t_max: must be a number, or one per ray (got the shape {t_max.shape} "
                             f"for rays of {rays.shape[:-1]})") from None
         rows = rays if rays.ndim == 2 else rays.reshape(-1, 6)
         return rows, t_max, rays.shape[:-1]
@@ -328,18 +326,18 @@ class Scene(PairsOfScene):
 
     @public
     def cast_rays(self, rays, t_max=None, threads=0, *, jac=False):
-        """What rays meet first.
+        """First hits of rays.
 
         Parameters
         ----------
         rays : (N, 6) or (..., 6) array
-            Origin and direction, of any length but zero. Not copied if of float64.
+            Origin and direction (of any length except zero). Arrays of float64 are not copied.
         t_max : float or (...) array, optional
-            In lengths of the direction; None for no end. With 0 a ray is its origin.
+            End of the ray, in lengths of the direction; None: no end. 0: only the origin.
         threads : int
-            0 for one a core. The answers are the same bits for any number.
+            0: one per core. Results are bit-identical for any number.
         jac : bool
-            Whether derivatives of `t` are told, too.
+            Add derivatives of `t`.
 
         Returns
         -------
@@ -349,8 +347,8 @@ class Scene(PairsOfScene):
         Raises
         ------
         Error
-            If the rays have another shape, a direction of zero, or numbers that are not finite: it
-            says which.
+            If the rays have another shape, a zero direction, or a number that is not finite; names
+            the ray.
 
         Examples
         --------
@@ -367,12 +365,12 @@ class Scene(PairsOfScene):
 
     @public
     def occluded(self, rays, t_max=None, threads=0):
-        """Whether rays meet anything.
+        """True for rays that hit anything.
 
         Parameters
         ----------
         rays, t_max, threads
-            As of `cast_rays`.
+            As for `cast_rays`.
 
         Returns
         -------
@@ -381,27 +379,27 @@ class Scene(PairsOfScene):
         Raises
         ------
         RuntimeError
-            If a solver gave up, so that nobody knows.
+            If the solver did not converge for a ray.
         """
         rows, t_max, shape = self._rows(rays, t_max)
         blocked = self._ready().occluded(rows, t_max, _threads(threads))
         if (blocked == EXHAUSTED).any():
-            raise RuntimeError(f"the solver gave up at ray {int(np.argmax(blocked == EXHAUSTED))}")
+            raise RuntimeError(f"the solver did not converge at ray {int(np.argmax(blocked == EXHAUSTED))}")
         return (blocked == HIT).reshape(shape)
 
     @public
     def certify(self, rays, hits=None, t_max=None, threads=0):
-        """Casts rays, and proves what they meet by planes and support points alone, of all objects.
+        """Casts rays and proves the results for all objects, by planes and support points alone.
 
         Parameters
         ----------
         rays : (N, 6) or (..., 6) array
-            As of `cast_rays`.
+            As for `cast_rays`.
         hits : Hits, optional
-            Answers of `cast_rays`, of the same rays and t_max. Those that are not what the rays
-            meet by now do not hold.
+            Results of `cast_rays` for the same rays and t_max. A result that differs from a new cast
+            does not hold.
         t_max : float or (...) array, optional
-            As of `cast_rays`.
+            As for `cast_rays`.
         threads : int
 
         Returns
@@ -417,7 +415,7 @@ class Scene(PairsOfScene):
             differs = (met.t != hits.t) | (met.object != hits.object) | (met.status != hits.status)
             proofs.holds[...] &= ~differs
             for i in np.flatnonzero(differs):
-                proofs.complaint[i] = "the answer is not what the ray meets"
+                proofs.complaint[i] = "the result differs from a new cast"
         return proofs
 
     @public
@@ -427,15 +425,15 @@ class Scene(PairsOfScene):
         Parameters
         ----------
         K, pose, width, height
-            As of `minkray.pinhole`.
+            As for `minkray.pinhole`.
         threads : int
 
         Returns
         -------
         depth : (height, width) array of float64
-            Along the camera's z axis; inf where nothing is met, NaN where the solver gave up.
+            Along the camera's z axis; inf for a miss, NaN if the solver did not converge.
         object : (height, width) array of uint32
-            NO_OBJECT where nothing is met.
+            NO_OBJECT for a miss.
         """
         hits = self.cast_rays(pinhole(K, pose, width, height), threads=threads)
         return np.where(hits.status == EXHAUSTED, np.nan, hits.t), hits.object
@@ -443,39 +441,39 @@ class Scene(PairsOfScene):
     @public
     def render(self, camera=None, spp=16, bounces=None, aovs=(), *, lights=None, background=None,
                width=0, height=0, integrator="auto", max_depth=None, denoise=False, seed=0, threads=0):
-        """A picture.
+        """Renders a picture.
 
         Parameters
         ----------
         camera : dict, optional
-            As scene files have it: ``{"position": [0, -5, 2], "look_at": [0, 0, 0]}``. None for
-            that of the scene's first file that has one; without any, everything is framed.
+            As in scene files: ``{"position": [0, -5, 2], "look_at": [0, 0, 0]}``. None: the camera of
+            the first scene file that has one; if none has, everything is framed.
         spp : int
-            Samples of a pixel.
+            Samples per pixel.
         bounces : int, optional
-            How often light is scattered, with the integrator 'ambient'; 1 for None.
+            Diffuse bounces of the integrator 'ambient' (default 1).
         aovs : list of str
-            More that is told of each pixel: 'Z', 'N', 'P', 'dist', 'id.object', 'albedo' and all
-            others that ``minkray render --help`` names, but for 'cryptomatte'.
+            More channels: 'Z', 'N', 'P', 'dist', 'id.object', 'albedo' and all others of ``minkray
+            render --help``, except 'cryptomatte'.
         lights : list of dict, optional
-            As scene files have them; None for those of the scene's files, or a sun and a sky.
+            As in scene files; None: the lights of the scene files, or a sun and a sky.
         background : list or dict, optional
-            Likewise.
+            As in scene files; None: the background of the scene files.
         width, height : int
             In pixels; 0 for the camera's.
         integrator : {'auto', 'path', 'direct', 'ambient', 'normals'}
         max_depth : int, optional
-            How often light is scattered, with the integrator 'path'; 16 for None.
+            Largest number of bounces of the integrator 'path' (default 16).
         denoise : bool
         seed : int
         threads : int
-            0 for one a core. The picture is the same bits for any number.
+            0: one per core. The picture is bit-identical for any number.
 
         Returns
         -------
         dict of str to array
-            'rgb', the linear light, (height, width, 3) of float32, and each of the aovs: (height,
-            width) or (height, width, 2 or 3), of float32 or uint32. Rows from the top.
+            'rgb' (linear, float32, (height, width, 3)) and each of the aovs (float32 or uint32,
+            (height, width) or (height, width, 2 or 3)). Rows from the top.
 
         Examples
         --------
@@ -510,76 +508,75 @@ class Scene(PairsOfScene):
 
     @public
     def clearance(self, robot, path, tolerance=0.01, only_obstacles=False, threads=0, *, jac=False):
-        """How near a robot comes to itself and to all else on its way, proven.
+        """Proven clearance of a robot along a path, to itself and to all other objects.
 
         Parameters
         ----------
         robot : Robot
-            Of this scene. It need not stand on the path.
+            Of this scene. Its current pose does not matter.
         path : (K, J) array
-            Rows of joints' values in the order of `Robot.joint_names`, in radians or lengths, four
-            for a ball joint; from row to row each joint goes at a constant rate.
+            Rows of joint values in the order of `Robot.joint_names` (radians or lengths; four per
+            ball joint), linear between rows.
         tolerance : float
-            How near the bounds shall be to each other, relative to the clearance.
+            Gap between the bounds, relative to the clearance.
         only_obstacles : bool
-            Whether the robot's links are not looked at with each other.
+            Check obstacles only, not self-collision.
         threads : int
-            0 for one a core.
+            0: one per core.
         jac : bool
-            Whether derivatives by the joints are told, too.
+            Add derivatives by the joints.
 
         Returns
         -------
         Clearance
-            Of each of the K - 1 steps from row to row; of one step that stands still if K is 1.
-            Pairs that `allow` or `set_masks` leave out are left out.
+            For each of the K - 1 steps between rows; for the pose itself if K is 1. Pairs excluded
+            by `allow` or `set_masks` are skipped.
         """
         robot = robot_of(robot, self._scene)
         path = np.atleast_2d(array_of(path, "path"))
         if path.ndim != 2:
-            raise Error(f"path: must have the shape (rows, joint values) (got {path.shape})")
+            raise Error(f"path: must have shape (rows, joint values) (got {path.shape})")
         return Clearance(_minkray.clearance(self._ready(), robot._group, path,
                                             number_of(tolerance, "tolerance"), bool(only_obstacles),
                                             bool(jac), _threads(threads)))
 
     def verify(self, robot, path, rates=None, margin=0.0, tolerance=0.01, only_obstacles=False, threads=0,
                *, budget=4000, accelerations=None, proof=None):
-        """Whether a robot's motion is free of collisions at all times, proven.
+        """Proves that a robot's motion is free of collisions at all times, or finds a collision.
 
         Parameters
         ----------
         robot : Robot
-            Of this scene. It need not stand on the path.
+            Of this scene. Its current pose does not matter.
         path : (K, J) array
-            Rows of joints' values in the order of `Robot.joint_names`.
+            Rows of joint values in the order of `Robot.joint_names`.
         rates : (K, J) array
-            Derivatives of the joints' values by the row. From row to row joints then go as cubics,
-            else at a constant rate.
+            Derivatives of the joint values per row. With them joints move as cubics between rows,
+            else linearly.
         margin : float
-            How far the robot must stay from obstacles.
+            Distance that the robot must keep from obstacles.
         tolerance : float
-            How near the bounds of the least clearance shall be to each other, relative to it.
+            Gap between the bounds of the least clearance, relative to it.
         only_obstacles : bool
-            Whether the robot's links are not looked at with each other.
+            Check obstacles only, not self-collision.
         threads : int
-            0 for one a core.
+            0: one per core.
         budget : int
-            Distances of a pair in a step; a motion that needs more is undecided.
+            Distance queries per pair and step before a motion is undecided.
         accelerations : (K, J) array
-            As `rates`, which they need: the second derivatives. Joints then go as quintics.
+            Second derivatives, with `rates`: joints then move as quintics.
         proof : str or path
-            A file for a proof of what is free or collides, which ``minkray-check`` confirms; of an
-            undecided motion none is written.
+            File for a proof, which ``minkray-check`` confirms. None is written for an undecided motion.
 
         Returns
         -------
         Verdict
-            True if the motion is free. Pairs that `allow` or `set_masks` leave out are left out.
+            True if the motion is free. Pairs excluded by `allow` or `set_masks` are skipped.
         """
         robot = robot_of(robot, self._scene)
         path = np.atleast_2d(array_of(path, "path"))
         if path.ndim != 2:
-            raise Error(f"path: must have the shape (rows, joint values) (got {path.shape})")
+            raise Error(f"path: must have shape (rows, joint values) (got {path.shape})")
 
         def table(rows, name):
             if rows is None:

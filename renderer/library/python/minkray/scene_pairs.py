@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""The pairs of a scene: which objects are near each other, and what a shape meets."""
+"""Pairs of objects of a scene: distances, nearest objects, impacts, contact points."""
 import re
 
 import numpy as np
@@ -7,7 +7,7 @@ import numpy as np
 from . import _minkray
 from .answers import _Arrays
 from .calls import Error, array_of, name_of, number_of, public, shapes_array, vectors_of, whole_number_of
-from .many_pairs import (Manifolds, Together, _rows_in_one_piece, poses_array, threads_of, told,
+from .many_pairs import (Manifolds, Together, _rows_in_one_piece, poses_array, threads_of, call_c,
                          twists_array)
 from .robots import robot_of
 
@@ -25,20 +25,20 @@ _ALL = 2**32 - 1
 
 
 class ScenePairs(_Arrays):
-    """Pairs of objects and how far apart they are: arrays, one row a pair.
+    """Pairs of objects and their signed distances: arrays with one row per pair.
 
     Attributes
     ----------
     object_a, object_b : (M,) uint32
-        Their numbers, the less first; as they were given if pairs were.
+        Numbers of the objects, the smaller one first; given pairs keep their order.
     value, lower, upper : (M,) float64
-        The signed distance, and its proven bounds.
+        The signed distance and its proven bounds.
     normal, point_a, point_b : (M, 3) float64
-        As of `Distances`.
+        As in `Distances`.
     status : (M,) uint8
         A `DistanceStatus`.
     jac_a, jac_b, is_ridge
-        With ``jac=True``, as of `Distances`: about the origins of the objects' frames.
+        With ``jac=True``, as in `Distances`: about the origins of the objects' frames.
     """
 
     def __repr__(self):
@@ -51,16 +51,16 @@ class Nearest(_Arrays):
     Attributes
     ----------
     object : (N, k) or (N,) uint32
-        Numbers, the nearest first; NO_OBJECT where there are no more.
+        Numbers of the objects, the nearest first; NO_OBJECT if there are fewer than k.
     value, lower, upper : float64
-        The signed distance to that object, and its proven bounds; inf where there is none.
+        The signed distance to that object and its proven bounds; inf without an object.
     normal, point_a, point_b : float64, three numbers each
         The direction from the point or shape to the object, and the nearest points on both.
     status : uint8
         A `DistanceStatus`.
     jac, is_ridge : six numbers, and bool
         With ``jac=True``: the derivative of `value` by a twist of the shape (for a point, its
-        velocity), and whether there may be others. That another object may be as near is not in it.
+        velocity), and True where it may be ambiguous. Other objects at the same distance do not count.
     """
 
     def __repr__(self):
@@ -68,16 +68,16 @@ class Nearest(_Arrays):
 
 
 class SceneImpacts(_Arrays):
-    """What shapes that move through a scene touch first: arrays of (N,).
+    """First contacts of shapes that move through a scene: arrays of shape (N,).
 
     Attributes
     ----------
     object : (N,) uint32
-        NO_OBJECT where nothing is touched.
+        Number of the object; NO_OBJECT without contact.
     t_lo, t_hi : (N,) float64
-        No object is touched before t_lo, which is proven; the object is, at t_hi.
+        No contact before t_lo (proven); contact with the object at t_hi.
     normal, point_a, point_b, distance, status
-        As of `Impacts`; a is the shape.
+        As in `Impacts`; a is the shape.
     jac, is_ridge : (N, 6) float64, (N,) bool
         With ``jac=True``: the derivative of the time by a twist of the shape at time 0.
     """
@@ -87,7 +87,7 @@ class SceneImpacts(_Arrays):
 
 
 class Manifold(_Arrays):
-    """Points of contact of two objects; see `Manifolds`, of which this is one."""
+    """Contact points of two objects: one entry of `Manifolds`."""
 
     __doc__ += Manifolds.__doc__[Manifolds.__doc__.index("\n\n"):].replace("(N,)", "").replace("(N, ", "(")
 
@@ -99,7 +99,7 @@ class Manifold(_Arrays):
 
 
 def _columns(rows, names, jac):
-    """Arrays by name; of those of derivatives, none unless they were asked for."""
+    """Arrays by name; derivatives only if `jac`."""
     fields = {}
     for name, of in names.items():
         if name in ("jac", "jac_a", "jac_b", "is_ridge") and not jac:
@@ -134,7 +134,7 @@ def _mask(value):
 
 
 def _numbers(value, argument):
-    """Object numbers, two a row."""
+    """Object numbers, two per row."""
     array = np.asarray(value)
     if array.size == 0:
         return np.zeros((0, 2), np.uint32)
@@ -146,7 +146,7 @@ def _numbers(value, argument):
 
 
 class _Moved:
-    """Shapes with poses, that are no part of the scene."""
+    """Shapes with poses outside of the scene."""
 
     def __init__(self, shape, poses, **more):
         array, own, self._kind = poses_array(poses, "poses")
@@ -159,11 +159,11 @@ class _Moved:
                              np.ascontiguousarray(self.together["twists"]) if self._is_twisted else None)
 
 
-def _told(call, *arguments):
-    """Calls it; its errors name arguments as they are here."""
+def _call_c(call, *arguments):
+    """Calls a function of the C interface; errors name the arguments of Python."""
     answer = []
     try:
-        told(lambda: answer.append(call(*arguments)))
+        call_c(lambda: answer.append(call(*arguments)))
     except Error as error:
         text = re.sub(r"^shapes\.(pose|twist)s", r"\1s", str(error))
         text = re.sub(r"^shapes\.shapes", "shape", text)
@@ -177,75 +177,75 @@ def _public(function):
 
 
 class PairsOfScene:
-    """What `Scene` is asked of its pairs."""
+    """Queries of a `Scene` on pairs of objects."""
 
     @_public
     def set_masks(self, object, category=1, mask=_ALL):
-        """Says with which objects one is looked at as a pair.
+        """Sets which other objects an object forms pairs with.
 
         Parameters
         ----------
         object : int
             Its number.
         category, mask : int
-            Bits: two objects are a pair if each one's mask has a bit of the other's category. As long
-            as nothing is said the category is 1, and the mask has all 32 bits.
+            Bits: two objects are a pair if each one's mask has a bit of the other's category. By
+            default the category is 1 and the mask has all 32 bits.
         """
-        _told(_minkray.scene_set_masks, self._scene, whole_number_of(object, "object"),
+        _call_c(_minkray.scene_set_masks, self._scene, whole_number_of(object, "object"),
               whole_number_of(category, "category"), whole_number_of(mask, "mask"))
 
     @_public
     def allow(self, i, j, allowed=True):
-        """Says that two objects may touch: `distances` leaves such pairs out.
+        """Allows two objects to touch: `distances` skips such pairs.
 
         Parameters
         ----------
         i, j : int
             Their numbers.
         allowed : bool
-            False for looking at them again.
+            False: query the pair again.
         """
-        _told(_minkray.scene_allow, self._scene, whole_number_of(i, "i"), whole_number_of(j, "j"),
+        _call_c(_minkray.scene_allow, self._scene, whole_number_of(i, "i"), whole_number_of(j, "j"),
               bool(allowed))
 
     @_public
     def allow_from_srdf(self, robot, file):
-        """Allows pairs of a robot's links that a file of MoveIt says may touch.
+        """Allows the pairs of a robot's links that an SRDF file (MoveIt) allows to touch.
 
         Parameters
         ----------
         robot : Robot
             Of this scene.
         file : str or path
-            SRDF: its ``disable_collisions``, ``disable_default_collisions`` and ``enable_collisions``.
+            Uses ``disable_collisions``, ``disable_default_collisions`` and ``enable_collisions``.
 
         Raises
         ------
         Error
-            If it names a link that the robot does not have; no pair is allowed then.
+            If the file names an unknown link; then no pair is allowed.
         """
-        _told(_minkray.scene_allow_from_srdf, self._scene, robot_of(robot, self._scene)._group, name_of(file))
+        _call_c(_minkray.scene_allow_from_srdf, self._scene, robot_of(robot, self._scene)._group, name_of(file))
 
     @_public
     def distances(self, pairs=None, within=None, *, tolerance=1e-10, jac=False, threads=0):
-        """All pairs of objects that are near each other.
+        """All pairs of objects within a distance of each other.
 
-        Left out are pairs that `allow` or `set_masks` leave out, pairs of two half-spaces, and of a
-        robot from a file those that do not move against each other or that a joint connects.
+        Skips pairs excluded by `allow` or `set_masks`, pairs of half-spaces, and links of a robot that
+        do not move relative to each other or that a joint connects.
 
         Parameters
         ----------
         pairs : (M, 2) array of int, optional
-            Numbers of objects: those are asked, whatever else was said of them, in their order.
+            Numbers of objects. Only these pairs are queried, in this order, including excluded ones.
         within : float, optional
-            In the world's unit: pairs that are proven to be further apart are left out. If it is not
-            given it is 0, for those that touch or overlap; for given pairs it is inf.
+            In the world's unit: pairs that are proven to be further apart are skipped. Default 0 (pairs
+            that touch or overlap); inf for given pairs.
         tolerance : float
-            Of the bounds, relative to the objects' sizes.
+            Gap between the bounds, relative to the objects' sizes.
         jac : bool
-            Whether derivatives are told, too.
+            Add derivatives.
         threads : int
-            0 for one a core. The answers are the same bits for any number.
+            0: one per core. Results are bit-identical for any number.
 
         Returns
         -------
@@ -263,7 +263,7 @@ class PairsOfScene:
         """
         within = (0.0 if pairs is None else np.inf) if within is None else _length(within, "within")
         pairs = None if pairs is None else _numbers(pairs, "pairs")
-        rows = _told(_minkray.scene_distances, self._ready(), pairs, within,
+        rows = _call_c(_minkray.scene_distances, self._ready(), pairs, within,
                      number_of(tolerance, "tolerance"), bool(jac), threads_of(threads)).view(_PAIR)
         return ScenePairs(_columns(rows, _OF_PAIR, jac))
 
@@ -278,16 +278,16 @@ class PairsOfScene:
         k : int
             At least 1.
         within : float
-            Objects that are proven to be further away are left out.
+            Objects that are proven to be further away are skipped.
         mask : int
-            Categories that are looked at; see `set_masks`.
+            Categories to query; see `set_masks`.
         jac, threads
-            As of `distances`.
+            As for `distances`.
 
         Returns
         -------
         Nearest
-            Of the shape (N, k).
+            Of shape (N, k).
         """
         points = np.ascontiguousarray(np.atleast_2d(vectors_of(points, "points", 3)))
         if points.ndim != 2:
@@ -295,63 +295,63 @@ class PairsOfScene:
         k = whole_number_of(k, "k")
         if k == 0:
             raise Error("k: must be at least 1 (got 0)")
-        rows = _told(_minkray.scene_nearest, self._ready(), points, k, _length(within, "within"), bool(jac),
+        rows = _call_c(_minkray.scene_nearest, self._ready(), points, k, _length(within, "within"), bool(jac),
                      _mask(mask), threads_of(threads)).view(_PAIR).reshape(len(points), k)
         return Nearest(_columns(rows, _OF_NEAREST, jac))
 
     @_public
     def distance_to(self, shape, poses, within=np.inf, *, mask=_ALL, jac=False, threads=0):
-        """The objects nearest to a shape that is no part of the scene, at many poses.
+        """The object nearest to a shape outside of the scene, at many poses.
 
         Parameters
         ----------
         shape : Shape, or list of N of them
         poses : (N, 4, 4), (N, 3, 4) or (N, 7) array, or one of them
-            Rigid; as of `minkray.signed_distances`.
+            Rigid; as for `minkray.signed_distances`.
         within, mask, jac, threads
-            As of `nearest`.
+            As for `nearest`.
 
         Returns
         -------
         Nearest
-            Of the shape (N,). Where nothing is within that distance, `object` is NO_OBJECT and `lower`
-            is `within`.
+            Of shape (N,). Without an object within that distance, `object` is NO_OBJECT and `lower` is
+            `within`.
         """
         moved = _Moved(shape, poses)
-        rows = _told(_minkray.scene_distance_to, self._ready(), moved.side(), moved.together.count,
+        rows = _call_c(_minkray.scene_distance_to, self._ready(), moved.side(), moved.together.count,
                      _length(within, "within"), bool(jac), _mask(mask), threads_of(threads))
         return Nearest(_columns(rows.view(_PAIR).reshape(moved.together.shape), _OF_NEAREST, jac))
 
     @_public
     def time_of_impact(self, shape, poses, twists, t_max=1.0, *, mask=_ALL, jac=False, threads=0):
-        """What a shape that moves and turns through the scene touches first, and when.
+        """First contact of a shape that moves and turns through the scene.
 
         Parameters
         ----------
         shape : Shape, or list of N of them
-            No part of the scene, whose objects stand still.
+            Outside of the scene, whose objects are at rest.
         poses : (N, 4, 4), (N, 3, 4) or (N, 7) array, or one of them
             At time 0; rigid.
         twists : (N, 6) or (6,) array
-            As of `minkray.times_of_impact`: about the origin of the shape's frame.
+            As for `minkray.times_of_impact`: about the origin of the shape's frame.
         t_max : float or (N,) array
-            At least 0, and finite.
+            Finite, at least 0.
         mask, jac, threads
-            As of `nearest`.
+            As for `nearest`.
 
         Returns
         -------
         SceneImpacts
         """
         moved = _Moved(shape, poses, twists=(twists_array(twists, "twists"), 1),
-                       t_max=(array_of(t_max, "t_max", "a number, or one for each pose"), 0))
-        rows = _told(_minkray.scene_time_of_impact, self._ready(), moved.side(), moved.together.count,
+                       t_max=(array_of(t_max, "t_max", "a number, or one per pose"), 0))
+        rows = _call_c(_minkray.scene_time_of_impact, self._ready(), moved.side(), moved.together.count,
                      moved.together["t_max"], bool(jac), _mask(mask), threads_of(threads))
         return SceneImpacts(_columns(rows.view(_IMPACT).reshape(moved.together.shape), _OF_IMPACT, jac))
 
     @_public
     def manifold(self, i, j):
-        """Up to four points of contact of two objects, whatever `allow` says of them.
+        """Up to four contact points of two objects, also of allowed pairs.
 
         Parameters
         ----------
@@ -362,7 +362,7 @@ class PairsOfScene:
         -------
         Manifold
         """
-        row = _told(_minkray.scene_manifold, self._ready(), whole_number_of(i, "i"),
+        row = _call_c(_minkray.scene_manifold, self._ready(), whole_number_of(i, "i"),
                     whole_number_of(j, "j")).view(_MANIFOLD)[0]
         fields = {name: row[name] for name in ("count", "normal", "points_a", "points_b", "gaps", "value",
                                                "lower", "upper", "status")}

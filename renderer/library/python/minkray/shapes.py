@@ -14,7 +14,7 @@ def _made(kind, shapes=None, **numbers):
 
 @public
 def make(kind, shapes=None, **numbers):
-    """A shape of any kind that scene files know, by the names they have there.
+    """A shape of any kind, by its name in scene files.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def make(kind, shapes=None, **numbers):
 
 @public
 def point(position):
-    """A point, of shape (3,).
+    """A point.
 
     Parameters
     ----------
@@ -62,12 +62,12 @@ def point(position):
 
 @public
 def segment(a, b):
-    """The points between two.
+    """A line segment between two points.
 
     Parameters
     ----------
     a, b : (3,) array
-        Its ends.
+        Its end points.
 
     Returns
     -------
@@ -111,7 +111,7 @@ def sphere(radius):
 
 @public
 def ellipsoid(radii):
-    """An ellipsoid around the origin, its three radii along x, y and z.
+    """An ellipsoid around the origin.
 
     Parameters
     ----------
@@ -127,7 +127,7 @@ def ellipsoid(radii):
 
 @public
 def box(half_extents):
-    """A box around the origin, half its size along x, y and z.
+    """A box around the origin.
 
     Parameters
     ----------
@@ -182,9 +182,9 @@ def cut_cylinder(radius, heights, lower_slope=(0, 0), upper_slope=(0, 0)):
     radius : float
         In the world's unit of length.
     heights : (2,) array
-        Of the lower and the upper plane at the axis.
+        Heights of the lower and the upper plane at the axis.
     lower_slope, upper_slope : (2,) array
-        How much a plane rises a unit of x and of y.
+        Slope of each plane along x and along y.
 
     Returns
     -------
@@ -212,7 +212,7 @@ def cone(radius, half_height):
 
 @public
 def capsule(radius, half_height):
-    """All points not further than `radius` from a segment of the z axis.
+    """A capsule: all points within `radius` of a segment of the z axis.
 
     Parameters
     ----------
@@ -228,12 +228,12 @@ def capsule(radius, half_height):
 
 @public
 def tapered_capsule(radii, half_height):
-    """The hull of two balls on the z axis, at -half_height and half_height.
+    """The convex hull of two balls on the z axis, at -half_height and half_height.
 
     Parameters
     ----------
     radii : (2,) array
-        Of the lower and the upper ball.
+        Radii of the lower and the upper ball.
     half_height : float
         In the world's unit of length.
 
@@ -246,12 +246,12 @@ def tapered_capsule(radii, half_height):
 
 @public
 def frustum(radii, half_height):
-    """A cone cut off by two disks of the given radii, at -half_height and half_height.
+    """A frustum of a cone between two disks, at -half_height and half_height.
 
     Parameters
     ----------
     radii : (2,) array
-        Of the lower and the upper disk.
+        Radii of the lower and the upper disk.
     half_height : float
         In the world's unit of length.
 
@@ -271,7 +271,7 @@ def superellipsoid(radii, exponent):
     radii : (3,) array
         Along x, y and z, in the world's unit of length.
     exponent : float
-        At least 1: 2 is an ellipsoid, more is boxier.
+        At least 1; 2 is an ellipsoid, larger values are boxier.
 
     Returns
     -------
@@ -282,7 +282,7 @@ def superellipsoid(radii, exponent):
 
 @public
 def hull(points):
-    """The convex hull of points, of shape (N, 3).
+    """The convex hull of points.
 
     Parameters
     ----------
@@ -297,7 +297,7 @@ def hull(points):
 
 @public
 def rounded(shape, radius):
-    """The shape, grown by a radius: its sum with a ball.
+    """The shape grown by a radius: its Minkowski sum with a ball.
 
     Parameters
     ----------
@@ -330,7 +330,7 @@ def sum(*shapes):
 
 @public
 def difference(a, b):
-    """All differences of a point of a and a point of b: the configuration space obstacle.
+    """The Minkowski difference of a and b, the configuration space obstacle.
 
     Parameters
     ----------
@@ -368,13 +368,13 @@ def _transformed(shape, matrix, argument):
 
 @public
 def transformed(shape, matrix):
-    """The shape under an invertible map: a (3, 4) or (4, 4) matrix.
+    """The shape under an invertible affine map.
 
     Parameters
     ----------
     shape : Shape
     matrix : (3, 4) or (4, 4) array
-        Any invertible map; a last row must be (0, 0, 0, 1).
+        Any invertible map; a fourth row must be (0, 0, 0, 1).
 
     Returns
     -------
@@ -385,7 +385,7 @@ def transformed(shape, matrix):
 
 @public
 def translated(shape, by):
-    """The shape, moved.
+    """The shape, translated.
 
     Parameters
     ----------
@@ -402,13 +402,13 @@ def translated(shape, by):
 
 @public
 def scaled(shape, by):
-    """The shape, scaled by a number, or by one along each axis.
+    """The shape, scaled by a number, or by a number per axis.
 
     Parameters
     ----------
     shape : Shape
     by : float or (3,) array
-        Along all axes, or along each; not zero.
+        One factor, or one per axis; not zero.
 
     Returns
     -------
@@ -422,13 +422,13 @@ def scaled(shape, by):
 
 @public
 def swept(shape, way):
-    """All that the shape comes through that goes along `way` without turning.
+    """The volume swept by the shape along a straight line.
 
     Parameters
     ----------
     shape : Shape
     way : (3,) array
-        In the world's unit of length.
+        Displacement, in the world's unit of length.
 
     Returns
     -------
@@ -440,23 +440,23 @@ def swept(shape, way):
 
 @public
 def mesh(vertices, triangles):
-    """Triangles with shared vertices, met as they are: not as their convex hull.
+    """A triangle mesh with shared vertices (not its convex hull).
 
     Parameters
     ----------
     vertices : (N, 3) array
     triangles : (M, 3) array of int
-        Numbers of vertices, counter-clockwise as seen from outside.
+        Indices of vertices, counter-clockwise as seen from outside.
 
     Returns
     -------
     Shape
-        Scenes and rays take it as they take a shape. It is not convex: no shape is made of it.
+        Usable in scenes and casts like any shape, but not as an operand, since it is not convex.
 
     Raises
     ------
     Error
-        If a number is that of no vertex, or a coordinate is not finite.
+        If an index is out of range, or a coordinate is not finite.
 
     Examples
     --------
@@ -482,21 +482,21 @@ def mesh(vertices, triangles):
 
 @public
 def height_field(heights, size, bottom=None):
-    """A terrain, as a mesh of two triangles for each cell of a grid.
+    """A terrain: a mesh with two triangles per cell of a grid.
 
     Parameters
     ----------
     heights : (R, C) array
-        Rows follow each other along y, the row of the least y first; columns along x.
+        Rows along y, starting at the least y; columns along x.
     size : (2,) array
-        From the first to the last column, and row. The grid's middle is above the origin.
+        Size along x (first to last column) and y (rows). The grid is centred above the origin.
     bottom : float, optional
-        The z at which walls and a bottom close the terrain to a solid. Without it it is open.
+        z of a bottom that closes the terrain to a solid, with walls. Default: open.
 
     Returns
     -------
     Shape
-        As of `mesh`. The triangles of the cell in row r and column c are ``2 * (r * (C - 1) + c)``
+        As from `mesh`. The triangles of the cell in row r and column c are ``2 * (r * (C - 1) + c)``
         and the next one.
 
     Raises
@@ -525,7 +525,7 @@ def height_field(heights, size, bottom=None):
 
 @public
 def mesh_info(mesh):
-    """What a mesh is like. Vertices at one place count as one for all but 'vertices'.
+    """Counts of a mesh. Vertices at the same position count as one, except in 'vertices'.
 
     Parameters
     ----------
@@ -534,39 +534,38 @@ def mesh_info(mesh):
     Returns
     -------
     dict
-        Numbers of 'vertices', 'triangles', 'open_edges' (0: it is closed), triangles
-        'without_area', and 'repeated' ones.
+        'vertices', 'triangles', 'open_edges' (0: the mesh is closed), triangles 'without_area', and
+        'repeated' triangles.
     """
     return _minkray.mesh_info(shape_of(mesh, "mesh"))
 
 
 @public
 def custom(support, bounds=None):
-    """A shape of your own, by its support function.
+    """A custom shape, given by its support function.
 
     Parameters
     ----------
     support : callable
-        Takes directions of unit length, an array of shape (M, 3), and answers the points of the shape
-        that lie furthest along them, of shape (M, 3). Equal directions must get equal points.
+        Takes unit directions, an array of shape (M, 3), and returns the shape's furthest points along
+        them, of shape (M, 3). Equal directions must get equal points.
     bounds : (2, 3) array, optional
-        Corners of a box that holds the shape.
+        Corners of a box that contains the shape.
 
     Returns
     -------
     Shape
-        It cannot be pickled.
+        Cannot be pickled.
 
     Raises
     ------
     Error
-        If no convex shape can have the points it answers. What it answers later on is checked as well:
-        a query that is lied to raises too.
+        If the returned points belong to no convex shape. Queries check later points, too, and raise.
 
     Notes
     -----
-    While rays are cast, many of them wait for each other, so that the function is called with
-    hundreds of directions at once. It is called with the interpreter's lock, by any thread.
+    Casts collect directions of many rays, so the function is called with hundreds of directions at
+    once. Any thread may call it, with the interpreter's lock.
 
     Examples
     --------
@@ -586,14 +585,14 @@ def custom(support, bounds=None):
 
 @public
 def read_shape(json, folder=""):
-    """The shape that a text in the scene files' format describes.
+    """Reads a shape from JSON, as in scene files.
 
     Parameters
     ----------
     json : str
         Such as ``'{"type": "sphere", "radius": 1}'``.
     folder : str
-        Where mesh files are looked for; the working folder if left out.
+        Folder of mesh files (default: the working folder).
 
     Returns
     -------
@@ -603,7 +602,7 @@ def read_shape(json, folder=""):
 
 
 def _init(self, *arguments, **named):
-    """Refuses: shapes are made by functions such as `minkray.box`."""
+    """Raises an Error: shapes are made by functions such as `minkray.box`."""
     raise Error("Shape: must be made by functions such as minkray.box")
 
 
@@ -623,12 +622,12 @@ def support(self, directions):
 
 
 def bounds(self):
-    """The lower and the upper corner of the tightest box along the axes, of shape (2, 3)."""
+    """Lower and upper corner of the bounding box, of shape (2, 3)."""
     return self._bounds()
 
 
 def json(self):
-    """The shape as scene files have it."""
+    """The shape as JSON, as in scene files."""
     return self._json()
 
 

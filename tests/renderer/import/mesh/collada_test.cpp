@@ -131,10 +131,10 @@ TEST(Collada, what_is_shown_again_and_again_is_told) {
   // 4 kB made 18 million vertices, all of them corners of their hull.
   EXPECT_NE(
       refused_dae(shown_twice(16, "<rotate>0 0 1 7</rotate>", "<instance_geometry url='#g'/>"))
-          .find("must show at most 200000 vertices, of 24 numbers in the file (got 200008)"),
+          .find("must have at most 200000 vertices, of 24 numbers in the file (got 200008)"),
       std::string::npos);
   EXPECT_NE(refused_dae(shown_twice(20, "", ""))
-                .find("must show at most 1000000 nodes and meshes, each again where"),
+                .find("must have at most 1000000 nodes and meshes, with repeated"),
             std::string::npos);
 }
 

@@ -221,20 +221,20 @@ TEST(Gltf, mistakes_are_told_all_at_once_with_their_place) {
     const std::string one = mistakes_of(text, "m.gltf");
     EXPECT_NE(one.find(expected), one.npos) << expected << " in\n" << one;
   };
-  refused(R"({"asset": {"version": "1.0"}})", "glTF 1 is not read");
+  refused(R"({"asset": {"version": "1.0"}})", "glTF 1 is not supported");
   refused(gltf_document(R"([{"children": [1]}, {"children": [0]}])"), "without a parent");
   refused(gltf_document(R"([{"children": [1, 1]}, {}])"), "a child twice");
   refused(gltf_document(R"([{"mesh": 0}])",
                         R"(, "extensionsRequired": ["KHR_draco_mesh_compression"])"),
-          "KHR_draco_mesh_compression is not read");
+          "KHR_draco_mesh_compression is not supported");
   refused(gltf_document(R"([{"mesh": 0}])", "", R"("uri": "https://x.org/a.bin", )"),
-          "beside this one");
+          "in the same folder");
   refused(gltf_document(R"([{"mesh": 0}])", "", R"("uri": "data:,abc", )"), "base64");
   // Any file's bytes are numbers: these were read as points.
   for (const char* elsewhere : {"/etc/passwd", "../../etc/passwd", "a/%2e%2e/../b.bin"})
     refused(
         gltf_document(R"([{"mesh": 0}])", "", R"("uri": ")" + std::string(elsewhere) + R"(", )"),
-        "beside this one");
+        "in the same folder");
   std::string text = gltf_document(R"([{"mesh": 0}])");
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string changed = text;
@@ -300,7 +300,7 @@ TEST(Gltf, what_is_shown_again_and_again_is_told) {
   } catch (const std::runtime_error& error) {
     told = error.what();
   }
-  EXPECT_NE(told.find("/meshes: must show at most 200000 vertices, of 132 bytes of buffers (got "
+  EXPECT_NE(told.find("/meshes: must have at most 200000 vertices, of 132 bytes of buffers (got "
                       "200008)"),
             told.npos)
       << told;
