@@ -6,8 +6,8 @@
 #pragma once
 
 #include "core/cast/form_line.h"
-#include "core/cast/on_ray.h"
 #include "core/exact/enter.h"
+#include "core/query/on_ray.h"
 #include "core/query/result.h"
 
 namespace minkray {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/cast/cast.h"
-#include "core/cast/on_ray.h"
+#include "core/query/on_ray.h"
 
 namespace minkray {
 

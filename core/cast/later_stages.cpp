@@ -10,8 +10,8 @@
 #include "core/cast/enclosed_ray.h"
 #include "core/cast/in_double.h"
 #include "core/cast/judge.h"
-#include "core/cast/on_ray.h"
 #include "core/cast/within_loss.h"
+#include "core/query/on_ray.h"
 
 namespace minkray {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The body of the packet casts. MINKRAY_PACKET_KERNEL is the function's name. Everything else here
 // has the type of the lanes, and so the instruction set, in its name: see core/math/wide.h.
-#include "core/cast/on_ray.h"
 #include "core/cast/packet_kernel.h"
 #include "core/cast/packet_lanes.h"
 #include "core/math/wide.h"
 #include "core/model/model_of.h"
+#include "core/query/on_ray.h"
 
 namespace minkray {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "core/cast/on_ray.h"
+#include "core/query/on_ray.h"
 #include "core/query/result.h"
 
 namespace minkray {
