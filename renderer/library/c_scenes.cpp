@@ -11,15 +11,6 @@
 #include "renderer/library/handles/scene_use.h"
 
 namespace minkray {
-
-HeldScene& scene_of(minkray_scene scene) {
-  HeldScene* held = held_scenes().find(scene.id);
-  if (!held)
-    wrong_use(std::string("scene: must be a scene (got ") +
-              (scene.id == 0 ? "none" : "a released one, or none") + ")");
-  return *held;
-}
-
 namespace {
 
 ImportOptions import_options(const minkray_file_options* given) {

@@ -380,4 +380,12 @@ const World& HeldScene::world() const {
   return world_;
 }
 
+HeldScene& scene_of(minkray_scene scene) {
+  HeldScene* held = held_scenes().find(scene.id);
+  if (!held)
+    wrong_use(std::string("scene: must be a scene (got ") +
+              (scene.id == 0 ? "none" : "a released one, or none") + ")");
+  return *held;
+}
+
 }  // namespace minkray
