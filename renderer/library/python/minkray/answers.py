@@ -92,6 +92,10 @@ class Hits(_Arrays):
     is_ridge : bool
         True where there may be other derivatives, or none: of a ray through an edge, that grazes a
         shape, or that meets two objects at once.
+    jac_error_ray, jac_error_body : float64, two numbers each
+        With ``jac_error=True``: bounds of the length of the error of `jac_ray`, by origin and by direction, and of
+        `jac_body`, by velocity and by angular velocity; NaN where nothing is met, inf on ridges and
+        of shapes known by their support mapping only.
     """
 
     def __repr__(self):

@@ -63,6 +63,9 @@ class Impacts(_Arrays):
         of `Distances`; NaN where there is no contact, zero where they begin inside each other.
     is_ridge : (N,) bool
         With ``jac=True``: True where there may be others, or none, as where they graze.
+    jac_error_a, jac_error_b : (N, 2) float64
+        With ``jac_error=True``: bounds of the length of the error of `jac_a` and `jac_b`, as of `Distances`; inf
+        also of two shapes without a radius: neither spheres, capsules nor rounded.
     """
 
     def __repr__(self):
@@ -318,8 +321,8 @@ def twists_array(value, argument):
 
 
 @public
-def times_of_impact(a, pose_a, twist_a, b, pose_b, twist_b, t_max=1.0, *, jac=False, memory=None, threads=0,
-                    out=None, progress=None):
+def times_of_impact(a, pose_a, twist_a, b, pose_b, twist_b, t_max=1.0, *, jac=False, jac_error=False,
+                    memory=None, threads=0, out=None, progress=None):
     """The first contacts of the shapes of many pairs that move and turn, at times from 0 to `t_max`.
 
     Parameters
@@ -332,7 +335,7 @@ def times_of_impact(a, pose_a, twist_a, b, pose_b, twist_b, t_max=1.0, *, jac=Fa
         shape's frame: the point that the pose's last column says. None for at rest.
     t_max : float or (N,) array
         At least 0, and finite.
-    jac, memory, threads, out, progress
+    jac, jac_error, memory, threads, out, progress
         As of `signed_distances`; `out` is Impacts.
 
     Returns
@@ -348,7 +351,7 @@ def times_of_impact(a, pose_a, twist_a, b, pose_b, twist_b, t_max=1.0, *, jac=Fa
                   twist_b=(twists_array(twist_b, "twist_b"), 1),
                   t_max=(array_of(t_max, "t_max", "a number, or one for each pair"), 0))
     shape = sides.together.shape
-    arrays = room(Impacts, {**_IMPACTS, **_JAC} if jac else _IMPACTS, shape, out)
+    arrays = room(Impacts, {**_IMPACTS, **(_JAC if jac else {}), **(_JAC_ERROR if jac_error else {})}, shape, out)
     told(_minkray.times_of_impact, sides.side("a"), sides.side("b"), sides.together.count,
          sides.together["t_max"], _memory(memory, shape), arrays, threads_of(threads), _progress(progress))
     return out if isinstance(out, Impacts) else Impacts(arrays)
