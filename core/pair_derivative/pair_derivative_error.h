@@ -19,11 +19,17 @@ struct PairDerivativeError {
   TwistError a, b;
 };
 
+/// Bounds of the movement since the contact: the way of any point of the bodies, and their turns.
+struct Drift {
+  double way = 0, turn = 0;
+};
+
 /// `contact` is what the derivative was made of. Directions of a depth lean by `depth_tilt` at
 /// most, which is infinite where that is not known. `origin_a` and `origin_b` are the bodies'
-/// origins, seen from A's middle.
+/// origins, seen from A's middle. Holds for all poses that are no further than `drift`.
 PairDerivativeError error_of(const CoresInWorld& cores, const CoreContact& contact,
                              const SignedDistance& found, double depth_tilt,
-                             const Vec3<double>& origin_a, const Vec3<double>& origin_b);
+                             const Vec3<double>& origin_a, const Vec3<double>& origin_b,
+                             const Drift& drift = {});
 
 }  // namespace minkray

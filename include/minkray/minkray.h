@@ -1032,3 +1032,4 @@ inline Impact time_of_impact(const Shape& a, const Pose& pose_a, const Twist& tw
 }  // namespace minkray
 
 #include "minkray/pairs.h"
+#include "minkray/ray_derivatives.h"

@@ -83,7 +83,9 @@ MINKRAY_API int minkray_signed_distances(const minkray_bodies* a, const minkray_
 
 /* NULL arrays are not filled. Derivatives of the first contact's time by a twist of each body's
  * pose at time 0: NaN without contact, zero if the two overlap at time 0. `is_ridge` is 1 where the
- * derivative may be ambiguous or undefined, as for a grazing contact. */
+ * derivative may be ambiguous or undefined, as for a grazing contact. `jac_error_a` and
+ * `jac_error_b` bound the length of the error; infinite on ridges, for meshes, for two shapes
+ * without a radius (neither sphere, capsule nor rounded), and if no overlap was proven. */
 typedef struct minkray_impact_arrays {
   size_t size; /* sizeof(minkray_impact_arrays) */
   minkray_impact* impacts;
@@ -96,7 +98,9 @@ typedef struct minkray_impact_arrays {
   double* jac_a;
   double* jac_b;
   uint8_t* is_ridge;
-  uint8_t* status; /* a minkray_impact_status */
+  uint8_t* status;     /* a minkray_impact_status */
+  double* jac_error_a; /* two per pair; read if `size` includes it */
+  double* jac_error_b;
 } minkray_impact_arrays;
 
 /* Times of impact of `count` pairs. `t_max` has one number per pair, or one. */
@@ -182,6 +186,9 @@ typedef struct minkray_near_options {
   double tolerance;    /* as in minkray_distance_options */
   int32_t derivatives; /* 1: add derivatives */
   uint32_t mask;       /* for given shapes and points: categories to test; 0: all */
+  /* For minkray_scene_time_of_impact: receives bounds of the length of each derivative's error, two
+   * per shape, as in minkray_impact_arrays. Read if `size` includes it; may be NULL. */
+  double* jac_error;
 } minkray_near_options;
 
 /* Receives all pairs at once, in the order of their numbers, on the calling thread. The pairs are
@@ -235,12 +242,17 @@ MINKRAY_API int minkray_scene_manifold(minkray_scene scene, uint32_t object_a, u
 /* NULL arrays are not filled: six numbers per ray. Derivatives of a ray's t by its origin and its
  * direction, and by a twist of the hit object about the origin of its frame. Zero if the ray begins
  * inside, NaN for a miss. `is_ridge` is 1 where the derivative may be ambiguous: the ray passes
- * through an edge, grazes a shape, or hits two objects at once. */
+ * through an edge, grazes a shape, or hits two objects at once. `jac_error_ray` and
+ * `jac_error_body` bound the length of the error: by origin and by direction, by velocity and by
+ * angular velocity. Infinite on ridges, and where the surface's curvature is unknown: for shapes
+ * known by their support mapping only, and for meshes unless the hits have `parts`. */
 typedef struct minkray_ray_derivatives {
   size_t size; /* sizeof(minkray_ray_derivatives) */
   double* jac_ray;
   double* jac_body;
   uint8_t* is_ridge;
+  double* jac_error_ray; /* two per ray; read if `size` includes it */
+  double* jac_error_body;
 } minkray_ray_derivatives;
 
 /* Derivatives of t. Needs the results of minkray_scene_cast_arrays for the same rays: t and its

@@ -55,7 +55,7 @@ struct DerivativeError {
 struct Derivatives {
   View<Twist> by_a = {}, by_b = {};
   View<std::uint8_t> is_ridge = {};
-  View<DerivativeError> error_a = {}, error_b = {};  ///< of distances only
+  View<DerivativeError> error_a = {}, error_b = {};
 };
 
 /// Options of queries on many pairs.
@@ -102,6 +102,8 @@ void add_derivatives(const char* function, const Derivatives& to, std::size_t pa
   arrays.jac_a = of_pairs<double>(function, "derivatives.by_a", to.by_a, pairs);
   arrays.jac_b = of_pairs<double>(function, "derivatives.by_b", to.by_b, pairs);
   arrays.is_ridge = of_pairs<std::uint8_t>(function, "derivatives.is_ridge", to.is_ridge, pairs);
+  arrays.jac_error_a = of_pairs<double>(function, "derivatives.error_a", to.error_a, pairs);
+  arrays.jac_error_b = of_pairs<double>(function, "derivatives.error_b", to.error_b, pairs);
 }
 }  // namespace detail
 
@@ -116,10 +118,6 @@ inline void signed_distances(const Bodies& a, const Bodies& b, View<Distance> di
   auto arrays = detail::empty_arrays<minkray_distance_arrays>();
   arrays.distances = reinterpret_cast<minkray_distance*>(distances.data());
   detail::add_derivatives(function, options.derivatives, distances.size(), arrays);
-  arrays.jac_error_a = detail::of_pairs<double>(function, "derivatives.error_a",
-                                                options.derivatives.error_a, distances.size());
-  arrays.jac_error_b = detail::of_pairs<double>(function, "derivatives.error_b",
-                                                options.derivatives.error_b, distances.size());
   detail::check(
       minkray_signed_distances(&plain_a, &plain_b, distances.size(), &asked,
                                detail::of_pairs<minkray_pair_memory>(
@@ -229,16 +227,17 @@ static_assert(sizeof(SceneImpact) == sizeof(minkray_scene_impact) &&
 /// Options of queries on a scene's pairs.
 struct NearOptions {
   double within = std::numeric_limits<double>::infinity();  ///< pairs further apart are skipped
-  double tolerance = 0;      ///< gap of the bounds, relative to the sizes; 0: 1e-10
-  bool derivatives = false;  ///< add derivatives
-  std::uint32_t mask = 0;    ///< for given shapes and points: categories to test; 0: all
+  double tolerance = 0;               ///< gap of the bounds, relative to the sizes; 0: 1e-10
+  bool derivatives = false;           ///< add derivatives
+  std::uint32_t mask = 0;             ///< for given shapes and points: categories to test; 0: all
+  View<DerivativeError> errors = {};  ///< of the derivatives of times of impact: one per shape
   Options how = {};
 };
 
 namespace detail {
 inline minkray_near_options plain(const NearOptions& options) {
   return {sizeof(minkray_near_options), options.within, options.tolerance,
-          options.derivatives ? 1 : 0, options.mask};
+          options.derivatives ? 1 : 0,  options.mask,   nullptr};
 }
 
 /// Keeps the pairs from minkray_scene_distances; `no_room`: out of memory.
@@ -323,7 +322,9 @@ inline ScenePair Scene::distance_to(const Shape& shape, const Pose& pose) const 
 inline void Scene::times_of_impact(const Bodies& shapes, View<const double> t_max,
                                    View<SceneImpact> impacts, const NearOptions& options) const {
   const minkray_bodies bodies = detail::plain(shapes);
-  const minkray_near_options asked = detail::plain(options);
+  minkray_near_options asked = detail::plain(options);
+  asked.jac_error = detail::of_pairs<double>("minkray::Scene::times_of_impact", "options.errors",
+                                             options.errors, impacts.size());
   const minkray_options how = detail::plain(options.how);
   detail::check(minkray_scene_time_of_impact(
       handle_, &bodies, impacts.size(), t_max.data(), t_max.size(), &asked,

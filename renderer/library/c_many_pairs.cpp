@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "core/pair_derivative/impact_derivative_error.h"
 #include "core/pair_derivative/pair_derivative.h"
 #include "core/pair_distance/manifold.h"
 #include "core/parts/parts_contact.h"
@@ -187,9 +188,11 @@ int minkray_times_of_impact(const minkray_bodies* a, const minkray_bodies* b, si
                             const minkray_impact_arrays* impacts, const minkray_options* how) {
   return call("minkray_times_of_impact", [&] {
     const BodiesOfPairs all_a(a, count, "a"), all_b(b, count, "b");
-    const minkray_impact_arrays to = checked(impacts, "impacts", "minkray_impact_arrays");
+    const minkray_impact_arrays to = checked(impacts, "impacts", "minkray_impact_arrays",
+                                             offsetof(minkray_impact_arrays, jac_error_a));
     check_ends(t_max, t_max_count, count);
-    const bool derive = wants_derivative(to);
+    const bool bound = to.jac_error_a || to.jac_error_b;
+    const bool derive = bound || wants_derivative(to);
     ask_all(all_a, all_b, count, memories, how,
             [&](size_t i, const PosedBody& one, const PosedBody& other, PairMemory* memory) {
               const RigidMotion motion_a = all_a.motion(i, one), motion_b = all_b.motion(i, other);
@@ -199,12 +202,19 @@ int minkray_times_of_impact(const minkray_bodies* a, const minkray_bodies* b, si
                       ? first_impact(one.shape(), motion_a, other.shape(), motion_b, end, *memory)
                       : first_impact(one.parts(), motion_a, other.parts(), motion_b, end);
               tell(to, i, found);
-              if (derive)
-                tell_derivative(
-                    to, i,
-                    are_shapes(one, other)
-                        ? derivative_of(one.shape(), motion_a, other.shape(), motion_b, found)
-                        : derivative_of(one.parts(), motion_a, other.parts(), motion_b, end));
+              if (!derive) return;
+              const PairDerivative derivative =
+                  are_shapes(one, other)
+                      ? derivative_of(one.shape(), motion_a, other.shape(), motion_b, found)
+                      : derivative_of(one.parts(), motion_a, other.parts(), motion_b, end);
+              tell_derivative(to, i, derivative);
+              if (!bound) return;
+              const PairDerivativeError error =
+                  are_shapes(one, other)
+                      ? error_of(one.shape(), motion_a, other.shape(), motion_b, found, derivative)
+                      : error_of(found);
+              tell(to.jac_error_a, i, error.a);
+              tell(to.jac_error_b, i, error.b);
             });
   });
 }

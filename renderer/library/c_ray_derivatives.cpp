@@ -2,9 +2,12 @@
 // C interface: derivatives of ray casts by the rays and the bodies that they hit.
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 
 #include "core/pair/sharp_point.h"
+#include "core/pair_derivative/normal_error.h"
 #include "core/parts/bends.h"
 #include "renderer/library/handles/call.h"
 #include "renderer/library/handles/held_scene.h"
@@ -17,12 +20,14 @@ namespace minkray {
 namespace {
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+constexpr double no_bound = std::numeric_limits<double>::infinity();
 
 /// Hits of rays, in the caller's form.
 struct Met {
   double t, t_lo, t_hi;
   Vec3<double> point, normal;
   std::uint32_t object;
+  std::int32_t part;
   std::uint8_t status;
 
   Met(const minkray_hit_arrays& hits, std::size_t i)
@@ -32,6 +37,7 @@ struct Met {
         point(hits.points + 3 * i),
         normal(hits.normals + 3 * i),
         object(hits.objects[i]),
+        part(hits.parts ? hits.parts[i] : -1),
         status(hits.status[i]) {}
 };
 
@@ -97,6 +103,16 @@ class Derivatives {
     if (to_.jac_ray) std::fill_n(to_.jac_ray + 6 * i, 6, number);
     if (to_.jac_body) std::fill_n(to_.jac_body + 6 * i, 6, number);
     if (to_.is_ridge) to_.is_ridge[i] = is_ridge ? 1 : 0;
+    fill_errors(i, is_ridge ? no_bound : number, is_ridge ? no_bound : number);
+  }
+
+  bool wants_errors() const { return to_.jac_error_ray || to_.jac_error_body; }
+  void fill_errors(std::size_t i, double first, double second) const {
+    for (double* const errors : {to_.jac_error_ray, to_.jac_error_body}) {
+      if (!errors) continue;
+      errors[2 * i] = first;
+      errors[2 * i + 1] = second;
+    }
   }
 
   void tell_hit(std::size_t i, const Met& met) const {
@@ -108,30 +124,94 @@ class Derivatives {
       put(-by_point, to_.jac_ray, 2 * i);
       put(-met.t * by_point, to_.jac_ray, 2 * i + 1);
     }
+    const Vec3<double> arm = met.point - bodies_.origin(met.object);
     if (to_.jac_body) {
       put(by_point, to_.jac_body, 2 * i);
-      put((met.point - bodies_.origin(met.object)).cross(by_point), to_.jac_body, 2 * i + 1);
+      put(arm.cross(by_point), to_.jac_body, 2 * i + 1);
     }
-    if (!to_.is_ridge) return;
+    if (!to_.is_ridge && !wants_errors()) return;
     constexpr double grazing = 1e-6;
     const double length = ray.direction.norm();
     const double off = (met.t_hi - met.t_lo) * length;
-    to_.is_ridge[i] =
-        !std::isfinite(off) || !(-along > grazing * length) || is_sharp(ray, met, off) ? 1 : 0;
+    const bool is_ridge =
+        !std::isfinite(off) || !(-along > grazing * length) || is_sharp(ray, met, off);
+    if (to_.is_ridge) to_.is_ridge[i] = is_ridge ? 1 : 0;
+    if (!wants_errors()) return;
+    fill_errors(i, no_bound, no_bound);
+    if (!is_ridge) tell_errors(i, ray, met, arm);
+  }
+
+  /// Bounds for m = n/(n.d), the derivative by the origin, for t m, that by the direction, and for
+  /// arm x m, that by a turn.
+  void tell_errors(std::size_t i, const Ray<double>& ray, const Met& met,
+                   const Vec3<double>& arm) const {
+    const double length = ray.direction.norm();
+    const double off = rounded(ray, met, (met.t_hi - met.t_lo) * length);
+    const double tilt = tilt_at(met, off);
+    const double along = std::abs(met.normal.dot(ray.direction)), least = along - tilt * length;
+    if (!(least > 0)) return;
+    const double of_point = tilt * (1 / least + length / (least * least)), by_point = 1 / least;
+    const double of_time = off / length;
+    if (to_.jac_error_ray) {
+      to_.jac_error_ray[2 * i] = of_point;
+      to_.jac_error_ray[2 * i + 1] = std::abs(met.t) * of_point + by_point * of_time;
+    }
+    if (to_.jac_error_body) {
+      const double of_arm = off + rounding * (met.point.norm() + bodies_.origin(met.object).norm());
+      to_.jac_error_body[2 * i] = of_point;
+      to_.jac_error_body[2 * i + 1] = arm.norm() * of_point + by_point * of_arm;
+    }
+  }
+
+  static constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
+
+  /// Error bound of the hit's point: `off` from the bounds of t, and rounding.
+  static double rounded(const Ray<double>& ray, const Met& met, double off) {
+    return off + rounding * (met.point.norm() + ray.origin.norm());
+  }
+
+  /// Error bound of the normal; infinite where nothing is known.
+  double tilt_at(const Met& met, double off) const {
+    constexpr double of_plane = 16 * std::numeric_limits<double>::epsilon();
+    const ContactBody* const body = bodies_.body(met.object);
+    // Robots' meshes may be hulls or half-spaces for contact, which rays do not meet.
+    if (world_.instances().is_mesh(met.object) && !(body && body->mesh)) return no_bound;
+    if (!body) return of_plane;
+    // Poses may be rigid to a few digits only.
+    const auto lean_of = [](const Mat3<double>& turn) {
+      return 4 * (turn.transpose() * turn - Mat3<double>::Identity()).norm() + of_plane;
+    };
+    if (body->mesh) {
+      const TriangleMesh& mesh = *body->mesh;
+      const auto part = static_cast<std::uint32_t>(met.part);
+      if (met.part < 0 || part >= mesh.size()) return no_bound;
+      const Vec3<double> own = body->pose.linear * mesh.normal(part);
+      const Vec3<double> a = mesh.corner(part, 1) - mesh.corner(part, 0),
+                         b = mesh.corner(part, 2) - mesh.corner(part, 0);
+      const double of_corners = rounding * mesh.reach() *
+                                std::max({a.norm(), b.norm(), (b - a).norm()}) / a.cross(b).norm();
+      const double lean = std::min((own - met.normal).norm(), (own + met.normal).norm());
+      return lean + of_corners + lean_of(body->pose.linear);
+    }
+    const ShapeCore& core = body->shape.core();
+    const PlacedCore frame = placed(body->shape, body->pose);
+    const double lean = lean_of(frame.turn);
+    const double near = off + (rounding + lean) * body->shape.ball_radius() + core.rounding;
+    return lean + normal_error_at(core, frame.turn.transpose() * (met.point - frame.middle),
+                                  frame.turn.transpose() * met.normal, near);
   }
 
   bool is_sharp(const Ray<double>& ray, const Met& met, double off) const {
     const ContactBody* const body = bodies_.body(met.object);
-    constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
-    const double rounded = off + rounding * (met.point.norm() + ray.origin.norm());
+    const double near_point = rounded(ray, met, off);
     if (body && body->mesh) {
       const Vec3<double> point =
           body->pose.linear.transpose() * (met.point - body->pose.translation);
-      if (minkray::bends_at(*body->mesh, point, rounded + rounding * body->mesh->reach()))
+      if (minkray::bends_at(*body->mesh, point, near_point + rounding * body->mesh->reach()))
         return true;
     } else if (body) {
       const ShapeCore& core = body->shape.core();
-      const double near = rounded + rounding * body->shape.ball_radius() + core.rounding;
+      const double near = near_point + rounding * body->shape.ball_radius() + core.rounding;
       // A shape grown by a radius has no edge.
       if (!(core.radius > 0)) {
         if (core.kind == CoreKind::other) {
@@ -144,7 +224,7 @@ class Derivatives {
         }
       }
     }
-    return bodies_.is_another_at(met.point, met.object, 2 * rounded);
+    return bodies_.is_another_at(met.point, met.object, 2 * near_point);
   }
 
   const World& world_;
@@ -181,17 +261,21 @@ int minkray_scene_ray_derivatives(minkray_scene scene, const minkray_ray_arrays*
     if (hits->size < offsetof(minkray_hit_arrays, parts))
       wrong_use("hits.size: must be sizeof(minkray_hit_arrays)");
     require(derivatives, "derivatives");
-    if (derivatives->size < sizeof(minkray_ray_derivatives))
+    if (derivatives->size < offsetof(minkray_ray_derivatives, jac_error_ray))
       wrong_use("derivatives.size: must be sizeof(minkray_ray_derivatives)");
-    if (count > 0) require_all(*hits);
+    minkray_ray_derivatives to = {};
+    std::memcpy(&to, derivatives, std::min(derivatives->size, sizeof to));
+    minkray_hit_arrays from = {};
+    std::memcpy(&from, hits, std::min(hits->size, sizeof from));
+    if (count > 0) require_all(from);
     const RaySource source(rays, count);
     const size_t objects = held->world().instances().size();
     for (size_t i = 0; i < count; ++i)
-      if (hits->status[i] == MINKRAY_HIT &&
-          (hits->objects[i] >= objects || held->is_removed(hits->objects[i])))
+      if (from.status[i] == MINKRAY_HIT &&
+          (from.objects[i] >= objects || held->is_removed(from.objects[i])))
         wrong_use("hits.objects[" + std::to_string(i) + "]: must be an object of the scene (got " +
-                  std::to_string(hits->objects[i]) + ")");
-    const Derivatives all(*held, source, *hits, *derivatives);
+                  std::to_string(from.objects[i]) + ")");
+    const Derivatives all(*held, source, from, to);
     work_on_rays(count, options, [&](size_t begin, size_t end) {
       for (size_t i = begin; i < end; ++i) all.tell(i);
     });

@@ -29,13 +29,14 @@ struct NearQuery {
   SignedDistanceOptions distances;
   bool derive = false;
   std::uint32_t mask = all_categories;
+  double* jac_error = nullptr;
 };
 
 NearQuery query_of(const minkray_near_options* options, double within) {
   NearQuery query;
   query.within = within;
   if (!options) return query;
-  if (options->size < sizeof(minkray_near_options))
+  if (options->size < offsetof(minkray_near_options, jac_error))
     wrong_use("options.size: must be sizeof(minkray_near_options)");
   if (!(options->within >= 0))
     wrong_use("options.within: must be >= 0 (got " + std::to_string(options->within) + ")");
@@ -44,6 +45,7 @@ NearQuery query_of(const minkray_near_options* options, double within) {
   query.distances = distance_options(&plain);
   query.derive = options->derivatives != 0;
   if (options->mask != 0) query.mask = options->mask;
+  if (options->size >= sizeof(minkray_near_options)) query.jac_error = options->jac_error;
   return query;
 }
 
@@ -297,8 +299,15 @@ int minkray_scene_time_of_impact(minkray_scene scene, const minkray_bodies* shap
       told.impact = plain_impact(found.impact);
       told.object = found.body == EarliestImpact::none ? MINKRAY_NO_OBJECT
                                                        : static_cast<uint32_t>(found.body);
+      if (!query.derive && !query.jac_error) return;
+      PairDerivativeError error;
+      const PairDerivative derivative =
+          bodies.derivative(body.parts(), motion, found, query.jac_error ? &error : nullptr);
+      if (query.jac_error) {
+        query.jac_error[2 * i] = error.a.by_velocity;
+        query.jac_error[2 * i + 1] = error.a.by_turn;
+      }
       if (!query.derive) return;
-      const PairDerivative derivative = bodies.derivative(body.parts(), motion, found);
       put_twist(derivative.a, told.jac);
       told.is_ridge = derivative.is_ridge ? 1 : 0;
     });

@@ -73,11 +73,12 @@ def c_table(folder):
 
 def cpp_table(folder):
     table = Table()
-    for header in "minkray.h", "pairs.h":
+    parts = {"minkray.h": "basics", "pairs.h": "pairs", "ray_derivatives.h": "derivatives of rays"}
+    for header, part in parts.items():
         with open(os.path.join(folder, header), encoding="utf-8") as file:
             lines = file.read().split("inline namespace v0 {", 1)[1].split("\n")
         scope, is_detail, comment = None, False, []
-        table.part("basics" if header == "minkray.h" else "pairs")
+        table.part(part)
         for line in lines:
             if match := re.match(r"// ---- (.*) ----$", line):
                 table.part(match[1])

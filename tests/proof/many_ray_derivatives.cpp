@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Derivatives of many rays' t, by the ray and by the body, compared with central differences of
-// entries in long double (tests/oracle/line_entry.h): a row for each kind of shape.
+// entries in long double (tests/oracle/line_entry.h): a row for each kind of shape. Errors outside
+// of their bounds are counted; `bound` is the median of the bounds, relative to the derivative.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <stdexcept>
+#include <vector>
 
 #include "minkray/minkray_c_pairs.h"
 #include "renderer/member_json/shape_json.h"
@@ -17,8 +20,10 @@ using namespace minkray::testing;
 using Long = long double;
 
 struct Row {
-  long hits = 0, smooth = 0, flagged = 0, needless = 0, missed = 0, unsure = 0, large = 0;
+  long hits = 0, smooth = 0, flagged = 0, needless = 0, missed = 0, unsure = 0, large = 0,
+       outside = 0, judged = 0;
   double error = 0;
+  std::vector<double> bounds;
 
   void add(const Row& other) {
     hits += other.hits;
@@ -28,11 +33,18 @@ struct Row {
     missed += other.missed;
     unsure += other.unsure;
     large += other.large;
+    outside += other.outside;
+    judged += other.judged;
+    bounds.insert(bounds.end(), other.bounds.begin(), other.bounds.end());
     error = std::max(error, other.error);
   }
-  void print(std::string_view name) const {
-    std::printf("%-18.*s %9ld %9ld %8ld %8ld %7ld %7ld %8ld %9.1e\n", static_cast<int>(name.size()),
-                name.data(), hits, smooth, flagged, needless, missed, unsure, large, error);
+  void print(std::string_view name) {
+    std::ranges::sort(bounds);
+    const auto known = std::ranges::count_if(bounds, [](double one) { return std::isfinite(one); });
+    std::printf("%-18.*s %9ld %9ld %8ld %8ld %7ld %7ld %8ld %9.1e %8ld %8ld %9ld %9.1e\n",
+                static_cast<int>(name.size()), name.data(), hits, smooth, flagged, needless, missed,
+                unsure, large, error, outside, judged, static_cast<long>(known),
+                bounds.empty() ? 0 : bounds[bounds.size() / 2]);
   }
 };
 
@@ -71,6 +83,30 @@ class RayJudge {
     Slope slope = Slope::unsure;
     Long derivative = 0;
   };
+  /// The derivative along one of both, and by how much it may be off: differences of fourth order
+  /// by shorter and shorter steps, those that agree best.
+  struct Precise {
+    Long derivative = 0, unsure = std::numeric_limits<Long>::infinity();
+  };
+  Precise precise(bool of_ray, const Real3& first, const Real3& second) const {
+    const auto central = [&](Long step) {
+      return (t_at(placed_.moved(of_ray, first, second, step)) -
+              t_at(placed_.moved(of_ray, first, second, -step))) /
+             (2 * step);
+    };
+    Precise best;
+    Long before = std::numeric_limits<Long>::infinity();
+    for (Long step = 1e-3L; step > 0.9e-7L; step /= 10) {
+      const Long slope = (4 * central(step / 2) - central(step)) / 3;
+      const Long rounding =
+          64 * std::numeric_limits<Long>::epsilon() * (1 + std::abs(middle_)) / step;
+      const Long off = std::abs(slope - before) + rounding;
+      if (off < best.unsure) best = {slope, off};
+      before = slope;
+    }
+    return best;
+  }
+
   Truth along(bool of_ray, const Real3& first, const Real3& second) const {
     constexpr Long agreed = 1e-7L, kinked = 1e-4L;
     Truth best;
@@ -158,7 +194,7 @@ Row judge_shape(const Shape<double>& shape, RandomShapes& random) {
   }
   constexpr std::size_t n = rays_of_a_shape;
   std::vector<double> t(n), lo(n), hi(n), points(3 * n), normals(3 * n), by_ray(6 * n),
-      by_body(6 * n);
+      by_body(6 * n), of_ray_error(2 * n), of_body_error(2 * n);
   std::vector<std::uint32_t> objects(n);
   std::vector<std::uint8_t> status(n), is_ridge(n);
   minkray_ray_arrays rays = {};
@@ -175,8 +211,9 @@ Row judge_shape(const Shape<double>& shape, RandomShapes& random) {
   hits.normals = normals.data();
   hits.objects = objects.data();
   hits.status = status.data();
-  const minkray_ray_derivatives derivatives = {sizeof derivatives, by_ray.data(), by_body.data(),
-                                               is_ridge.data()};
+  const minkray_ray_derivatives derivatives = {sizeof derivatives,  by_ray.data(),
+                                               by_body.data(),      is_ridge.data(),
+                                               of_ray_error.data(), of_body_error.data()};
   require(minkray_scene_cast_arrays(scene, &rays, n, &hits, nullptr));
   require(minkray_scene_ray_derivatives(scene, &rays, n, &hits, &derivatives, nullptr));
   for (std::size_t i = 0; i < n; ++i) {
@@ -191,7 +228,8 @@ Row judge_shape(const Shape<double>& shape, RandomShapes& random) {
                           vector(directions, 3 * i).cast<Long>()},
                          size, pose.linear.transpose() * vector(normals, 3 * i));
     bool is_ridged = false, is_unsure = false;
-    double error = 0;
+    double error = 0, bound = 0;
+    int outside = 0, judged = 0;
     for (int k = 0; k < (is_ridge[i] != 0 ? 8 : 2); ++k) {
       const bool of_ray = k % 2 == 0;
       const double angle = random.in(0, 1.5707963);
@@ -207,6 +245,17 @@ Row judge_shape(const Shape<double>& shape, RandomShapes& random) {
       const double length =
           std::hypot(size * by_first.norm(), (of_ray ? size : 1) * by_second.norm());
       error = std::max(error, std::abs(static_cast<double>(truth.derivative) - told) / length);
+      if (is_ridge[i] != 0 || truth.slope != Slope::smooth) continue;
+      const std::vector<double>& errors = of_ray ? of_ray_error : of_body_error;
+      const double allowed = errors[2 * i] * first.norm() + errors[2 * i + 1] * second.norm();
+      bound = std::max(bound, allowed / length);
+      const RayJudge::Precise slope =
+          judge.precise(of_ray, first.cast<Long>(), second.cast<Long>());
+      const Long exact = by_first.cast<Long>().dot(first.cast<Long>()) +
+                         by_second.cast<Long>().dot(second.cast<Long>());
+      // Differences that are much coarser than the bound judge nothing.
+      judged += slope.unsure <= 10 * allowed ? 1 : 0;
+      outside += std::abs(slope.derivative - exact) - 3 * slope.unsure > allowed ? 1 : 0;
     }
     if (is_ridged) {
       row.missed += is_ridge[i] != 0 ? 0 : 1;
@@ -217,6 +266,9 @@ Row judge_shape(const Shape<double>& shape, RandomShapes& random) {
       row.needless += is_ridge[i];
       if (is_ridge[i] != 0) continue;
       row.large += error > 1e-6 ? 1 : 0;
+      row.outside += outside > 0 ? 1 : 0;
+      row.judged += judged > 1 ? 1 : 0;
+      row.bounds.push_back(bound);
       row.error = std::max(row.error, error);
     }
   }
@@ -244,11 +296,12 @@ int main(int count, char** words) {
       is_known[k] = false;
     }
   }
-  std::printf("%-18s %9s %9s %8s %8s %7s %7s %8s %9s\n", "kind", "hits", "smooth", "flagged",
-              "needless", "missed", "unsure", "> 1e-6", "largest");
+  std::printf("%-18s %9s %9s %8s %8s %7s %7s %8s %9s %8s %8s %9s %9s\n", "kind", "hits", "smooth",
+              "flagged", "needless", "missed", "unsure", "> 1e-6", "largest", "outside", "judged",
+              "bounded", "bound");
   for (int i = 0; i < kinds_of_derived_bodies; ++i)
     if (is_known[static_cast<std::size_t>(i)])
       of_kinds[static_cast<std::size_t>(i)].print(name_of_derived(i));
   all.print("all");
-  return all.missed + all.large > 0 ? 1 : 0;
+  return all.missed + all.large + all.outside > 0 ? 1 : 0;
 }

@@ -8,6 +8,7 @@
 
 #include "core/derived/cube.h"
 #include "core/mesh/mapped.h"
+#include "core/pair_derivative/impact_derivative_error.h"
 #include "core/parallel/parallel.h"
 #include "core/parts/parts_contact.h"
 #include "core/parts/parts_distance.h"
@@ -390,7 +391,9 @@ EarliestImpact SceneBodies::first_impact(const PartsBody& moving, const RigidMot
 }
 
 PairDerivative SceneBodies::derivative(const PartsBody& moving, const RigidMotion& motion,
-                                       const EarliestImpact& found) const {
+                                       const EarliestImpact& found,
+                                       PairDerivativeError* error) const {
+  if (error) *error = error_of(found.impact);
   if (found.body == EarliestImpact::none)
     return derivative_of(point_, motion, point_, motion, found.impact);
   const auto object = static_cast<std::uint32_t>(found.body);
@@ -398,8 +401,13 @@ PairDerivative SceneBodies::derivative(const PartsBody& moving, const RigidMotio
   const ContactBody body = half_space ? as_box(half_space->plane, motion.pose.translation,
                                                way_of(moving, motion, found.impact.t_lo))
                                       : body_of(object);
-  if (moving.shape() && !body.mesh)
-    return derivative_of(*moving.shape(), motion, body.shape, {body.pose}, found.impact);
+  if (moving.shape() && !body.mesh) {
+    const PairDerivative derivative =
+        derivative_of(*moving.shape(), motion, body.shape, {body.pose}, found.impact);
+    if (error)
+      *error = error_of(*moving.shape(), motion, body.shape, {body.pose}, found.impact, derivative);
+    return derivative;
+  }
   return derivative_of(moving, motion, body.parts(), {body.pose}, found.impact.t_hi);
 }
 

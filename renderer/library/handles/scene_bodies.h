@@ -52,8 +52,9 @@ class SceneBodies {
   /// The object that is touched first; its number is in `body`.
   EarliestImpact first_impact(const PartsBody& moving, const RigidMotion& motion, double t_max,
                               std::uint32_t mask) const;
+  /// Fills `error`, if there is one.
   PairDerivative derivative(const PartsBody& moving, const RigidMotion& motion,
-                            const EarliestImpact& found) const;
+                            const EarliestImpact& found, PairDerivativeError* error) const;
 
   /// True if the object is a half-space for contact.
   bool is_half_space(std::uint32_t object) const { return half_space_of(object) != nullptr; }

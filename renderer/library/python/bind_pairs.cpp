@@ -46,6 +46,8 @@ void add_points_and_derivatives(const py::dict& out, Arrays& to) {
   to.jac_a = room<double>(out, "jac_a");
   to.jac_b = room<double>(out, "jac_b");
   to.is_ridge = reinterpret_cast<std::uint8_t*>(room<bool>(out, "is_ridge"));
+  to.jac_error_a = room<double>(out, "jac_error_a");
+  to.jac_error_b = room<double>(out, "jac_error_b");
   to.status = room<std::uint8_t>(out, "status");
 }
 
@@ -56,8 +58,6 @@ void signed_distances(const Side& a, const Side& b, std::size_t count, double to
   add_bounds(out, to);
   add_points_and_derivatives(out, to);
   to.supports = room<std::int32_t>(out, "supports");
-  to.jac_error_a = room<double>(out, "jac_error_a");
-  to.jac_error_b = room<double>(out, "jac_error_b");
   const minkray_distance_options options = {sizeof options, tolerance, 0, 0, 0};
   minkray_pair_memory* const memories = memories_of(memory);
   Interruptible(threads, progress).run([&](const minkray_options* how) {

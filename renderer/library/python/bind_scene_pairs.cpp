@@ -13,7 +13,7 @@ using minkray::Scene;
 using Bytes = py::array_t<std::uint8_t, py::array::c_style>;
 
 minkray_near_options options_of(double within, double tolerance, bool jac, std::uint32_t mask) {
-  return {sizeof(minkray_near_options), within, tolerance, jac ? 1 : 0, mask};
+  return {sizeof(minkray_near_options), within, tolerance, jac ? 1 : 0, mask, nullptr};
 }
 
 template <class Row>
@@ -75,8 +75,10 @@ Bytes distance_to(const Scene& scene, const Side& shapes, std::size_t count, dou
 }
 
 Bytes time_of_impact(const Scene& scene, const Side& shapes, std::size_t count,
-                     const Doubles& t_max, bool jac, std::uint32_t mask, int threads) {
-  const minkray_near_options options = options_of(0, 0, jac, mask);
+                     const Doubles& t_max, bool jac, const py::object& errors, std::uint32_t mask,
+                     int threads) {
+  minkray_near_options options = options_of(0, 0, jac, mask);
+  if (!errors.is_none()) options.jac_error = errors.cast<Doubles>().mutable_data();
   Bytes bytes = rows<minkray_scene_impact>(count);
   auto* const to = first_of<minkray_scene_impact>(bytes);
   const double* const ends = t_max.data();

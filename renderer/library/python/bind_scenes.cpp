@@ -36,7 +36,7 @@ struct RayRows {
 };
 
 py::dict cast(const Scene& scene, const py::object& rays, const py::object& t_max, int threads,
-              bool jac) {
+              bool jac, bool jac_error) {
   const RayRows source(rays, t_max);
   const auto n = static_cast<py::ssize_t>(source.rows.count);
   py::array_t<double> t(n), t_lo(n), t_hi(n), distance(n), point({n, py::ssize_t{3}}),
@@ -68,10 +68,17 @@ py::dict cast(const Scene& scene, const py::object& rays, const py::object& t_ma
     result["jac_body"] = by_body;
     result["is_ridge"] = is_ridge;
   }
+  if (jac_error) {
+    py::array_t<double> of_ray({n, py::ssize_t{2}}), of_body({n, py::ssize_t{2}});
+    derivatives.jac_error_ray = of_ray.mutable_data();
+    derivatives.jac_error_body = of_body.mutable_data();
+    result["jac_error_ray"] = of_ray;
+    result["jac_error_body"] = of_body;
+  }
   Interruptible(threads).run([&](const minkray_options* options) {
     const int code = minkray_scene_cast_arrays(scene.handle(), &source.arrays, source.rows.count,
                                                &hits, options);
-    if (code != MINKRAY_OK || !jac) return code;
+    if (code != MINKRAY_OK || (!jac && !jac_error)) return code;
     return minkray_scene_ray_derivatives(scene.handle(), &source.arrays, source.rows.count, &hits,
                                          &derivatives, options);
   });

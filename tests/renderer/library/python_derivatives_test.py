@@ -90,6 +90,44 @@ class Derivatives(unittest.TestCase):
                     off = off_slope(f, jac[:, axis]) / (1 + np.abs(jac[:, axis]))
                     self.assertLess(off[known].max(), 2e-6, (name, axis))
 
+    def test_errors_of_rays_have_bounds(self):
+        scene = mk.Scene()
+        scene.add(mk.sphere(1))
+        scene.add(mk.box([1, 1, 1]), [[1, 0, 0, 0], [0, 1, 0, 10], [0, 0, 1, 0]])
+        rays = [[-4, 0.6, 0, 1, 0, 0], [-4, 10, 0, 2, 0, 0], [-4, 5, 0, 1, 0, 0], [0, 0, 0, 1, 0, 0],
+                [-4, 10, 4, 3, 0, -3]]
+        hits = scene.cast_rays(rays, jac=True, jac_error=True)
+        error = hits.jac_ray[0] - [-1, 0.75, 0, -3.2, 2.4, 0]
+        self.assertLessEqual(np.linalg.norm(error[:3]), hits.jac_error_ray[0, 0])
+        self.assertLessEqual(np.linalg.norm(error[3:]), hits.jac_error_ray[0, 1])
+        # A ball is turned about its middle in vain.
+        self.assertLessEqual(np.linalg.norm(hits.jac_body[0, 3:]), hits.jac_error_body[0, 1])
+        self.assertLess(hits.jac_error_ray[:2].max(), 1e-12)
+        self.assertLess(hits.jac_error_body[:2].max(), 1e-12)
+        self.assertTrue(np.isnan(hits.jac_error_ray[2]).all())
+        self.assertTrue((hits.jac_error_body[3] == 0).all())
+        self.assertTrue(hits.is_ridge[4] and np.isinf(hits.jac_error_ray[4]).all())
+        self.assertFalse(hasattr(scene.cast_rays(rays, jac=True), "jac_error_ray"))
+        alone = scene.cast_rays(rays, jac_error=True)
+        self.assertFalse(hasattr(alone, "jac_ray"))
+        np.testing.assert_array_equal(alone.jac_error_body, hits.jac_error_body)
+
+    def test_errors_of_times_of_impact_have_bounds(self):
+        ball, poses, twist = mk.sphere(1), [[4, 1.2, 0, 1, 0, 0, 0], [4, 9, 0, 1, 0, 0, 0]], [-1, 0, 0, 0, 0, 0.5]
+        d = mk.times_of_impact(ball, None, None, ball, poses, twist, 5, jac=True, jac_error=True)
+        error = d.jac_b[0] - [1, 0.75, 0, 0, 0, 0]
+        self.assertLessEqual(np.linalg.norm(error[:3]), d.jac_error_b[0, 0])
+        self.assertLessEqual(np.linalg.norm(error[3:]), d.jac_error_b[0, 1])
+        self.assertLess(d.jac_error_b[0].max(), 1e-7)
+        self.assertTrue(np.isnan(d.jac_error_a[1]).all())
+        self.assertFalse(hasattr(mk.times_of_impact(ball, None, None, ball, poses, twist, 5), "jac_error_a"))
+        scene = mk.Scene()
+        scene.add(ball)
+        found = scene.time_of_impact(ball, poses, twist, 5, jac=True, jac_error=True)
+        self.assertLessEqual(np.linalg.norm((found.jac[0] - [1, 0.75, 0, 0, 0, 0])[:3]), found.jac_error[0, 0])
+        self.assertEqual(found.jac_error.shape, (2, 2))
+        self.assertTrue(np.isnan(found.jac_error[1]).all())
+
     def test_say_where_they_are_not_unique(self):
         box, flat = mk.box([1, 1, 1]), [[0.3, 0.2, 3, 1, 0, 0, 0]]
         turned = [[0.3, 0.2, 3, np.cos(0.2), 0, 0, np.sin(0.2)]]  # about z: faces still parallel

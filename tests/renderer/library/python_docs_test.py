@@ -18,7 +18,8 @@ import minkray as mk
 
 SOURCES = sys.argv.pop(1)
 # Fields that are there with jac=True or jac_error=True.
-OF_JAC = {"jac", "jac_ray", "jac_body", "is_ridge", "jac_error_a", "jac_error_b"}
+OF_JAC = {"jac", "jac_ray", "jac_body", "is_ridge", "jac_error_a", "jac_error_b", "jac_error",
+          "jac_error_ray", "jac_error_body"}
 FOLDER = os.path.join(SOURCES, "renderer/library/python/minkray")
 
 
@@ -103,11 +104,11 @@ class Stubs(unittest.TestCase):
             fields = {one.target.id for one in node.body if isinstance(one, ast.AnnAssign)}
             self.assertEqual(fields - OF_JAC, set(vars(answer)), type(answer).__name__)
         pairs = (mk.sphere(1), None, mk.sphere(1), None)
-        for answer in (scene.cast_rays(ray, jac=True), arm.clearance(robot, [[0, 0]], jac=True),
+        for answer in (scene.cast_rays(ray, jac=True, jac_error=True), arm.clearance(robot, [[0, 0]], jac=True),
                        mk.signed_distances(*pairs, jac=True, jac_error=True), mk.manifolds(*pairs),
-                       mk.times_of_impact(*pairs[:2], None, *pairs[2:], None, jac=True),
+                       mk.times_of_impact(*pairs[:2], None, *pairs[2:], None, jac=True, jac_error=True),
                        scene.distances(within=1, jac=True), scene.nearest([0, 0, 0], jac=True),
-                       scene.time_of_impact(mk.sphere(1), None, [0] * 6, jac=True)):
+                       scene.time_of_impact(mk.sphere(1), None, [0] * 6, jac=True, jac_error=True)):
             node = self.stub[type(answer).__name__]
             fields = {one.target.id for one in node.body if isinstance(one, ast.AnnAssign)}
             self.assertEqual(fields, set(vars(answer)), type(answer).__name__)

@@ -92,6 +92,10 @@ class Hits(_Arrays):
     is_ridge : bool
         True where the derivative may be ambiguous or undefined: the ray passes through an edge,
         grazes a shape, or hits two objects at once.
+    jac_error_ray, jac_error_body : float64, two numbers each
+        With ``jac_error=True``: bounds of the length of the error of `jac_ray`, by origin and by direction, and of
+        `jac_body`, by velocity and by angular velocity; NaN for a miss, inf on ridges and for shapes
+        known by their support mapping only.
     """
 
     def __repr__(self):

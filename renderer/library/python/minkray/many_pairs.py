@@ -63,6 +63,9 @@ class Impacts(_Arrays):
     is_ridge : (N,) bool
         With ``jac=True``: True where the derivative may be ambiguous or undefined, as for a grazing
         contact.
+    jac_error_a, jac_error_b : (N, 2) float64
+        With ``jac_error=True``: bounds of the length of the error of `jac_a` and `jac_b`, as for `Distances`; inf
+        also for two shapes without a radius: neither spheres, capsules nor rounded.
     """
 
     def __repr__(self):
@@ -317,8 +320,8 @@ def twists_array(value, argument):
 
 
 @public
-def times_of_impact(a, pose_a, twist_a, b, pose_b, twist_b, t_max=1.0, *, jac=False, memory=None, threads=0,
-                    out=None, progress=None):
+def times_of_impact(a, pose_a, twist_a, b, pose_b, twist_b, t_max=1.0, *, jac=False, jac_error=False,
+                    memory=None, threads=0, out=None, progress=None):
     """First contacts of many pairs of moving and turning shapes, at times from 0 to `t_max`.
 
     Parameters
@@ -331,7 +334,7 @@ def times_of_impact(a, pose_a, twist_a, b, pose_b, twist_b, t_max=1.0, *, jac=Fa
         frame (the last column of the pose). None: at rest.
     t_max : float or (N,) array
         Finite, at least 0.
-    jac, memory, threads, out, progress
+    jac, jac_error, memory, threads, out, progress
         As for `signed_distances`; `out` is Impacts.
 
     Returns
@@ -347,7 +350,7 @@ def times_of_impact(a, pose_a, twist_a, b, pose_b, twist_b, t_max=1.0, *, jac=Fa
                   twist_b=(twists_array(twist_b, "twist_b"), 1),
                   t_max=(array_of(t_max, "t_max", "a number, or one for each pair"), 0))
     shape = sides.together.shape
-    arrays = room(Impacts, {**_IMPACTS, **_JAC} if jac else _IMPACTS, shape, out)
+    arrays = room(Impacts, {**_IMPACTS, **(_JAC if jac else {}), **(_JAC_ERROR if jac_error else {})}, shape, out)
     call_c(_minkray.times_of_impact, sides.side("a"), sides.side("b"), sides.together.count,
          sides.together["t_max"], _memory(memory, shape), arrays, threads_of(threads), _progress(progress))
     return out if isinstance(out, Impacts) else Impacts(arrays)

@@ -325,7 +325,7 @@ class Scene(PairsOfScene):
                 else values for name, values in fields.items()}
 
     @public
-    def cast_rays(self, rays, t_max=None, threads=0, *, jac=False):
+    def cast_rays(self, rays, t_max=None, threads=0, *, jac=False, jac_error=False):
         """First hits of rays.
 
         Parameters
@@ -338,6 +338,8 @@ class Scene(PairsOfScene):
             0: one per core. Results are bit-identical for any number.
         jac : bool
             Add derivatives of `t`.
+        jac_error : bool
+            Add bounds of the derivatives' errors.
 
         Returns
         -------
@@ -359,7 +361,7 @@ class Scene(PairsOfScene):
         array([1.5, inf])
         """
         rows, ends, shape = self._rows(rays, t_max)
-        found = self._ready().cast(rows, ends, _threads(threads), bool(jac))
+        found = self._ready().cast(rows, ends, _threads(threads), bool(jac), bool(jac_error))
         fields = {name: found.pop(name) for name in ("t", "t_lo", "t_hi")}  # t is the first of all
         return Hits(self._shaped({**fields, **found}, shape))
 

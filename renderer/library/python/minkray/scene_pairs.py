@@ -80,6 +80,8 @@ class SceneImpacts(_Arrays):
         As in `Impacts`; a is the shape.
     jac, is_ridge : (N, 6) float64, (N,) bool
         With ``jac=True``: the derivative of the time by a twist of the shape at time 0.
+    jac_error : (N, 2) float64
+        With ``jac_error=True``: bounds of the length of the error of `jac`, as of `Impacts`.
     """
 
     def __repr__(self):
@@ -323,7 +325,8 @@ class PairsOfScene:
         return Nearest(_columns(rows.view(_PAIR).reshape(moved.together.shape), _OF_NEAREST, jac))
 
     @_public
-    def time_of_impact(self, shape, poses, twists, t_max=1.0, *, mask=_ALL, jac=False, threads=0):
+    def time_of_impact(self, shape, poses, twists, t_max=1.0, *, mask=_ALL, jac=False, jac_error=False,
+                       threads=0):
         """First contact of a shape that moves and turns through the scene.
 
         Parameters
@@ -338,6 +341,8 @@ class PairsOfScene:
             Finite, at least 0.
         mask, jac, threads
             As for `nearest`.
+        jac_error : bool
+            Add bounds of the derivatives' errors.
 
         Returns
         -------
@@ -345,9 +350,13 @@ class PairsOfScene:
         """
         moved = _Moved(shape, poses, twists=(twists_array(twists, "twists"), 1),
                        t_max=(array_of(t_max, "t_max", "a number, or one per pose"), 0))
+        errors = np.empty((moved.together.count, 2)) if jac_error else None
         rows = _call_c(_minkray.scene_time_of_impact, self._ready(), moved.side(), moved.together.count,
-                     moved.together["t_max"], bool(jac), _mask(mask), threads_of(threads))
-        return SceneImpacts(_columns(rows.view(_IMPACT).reshape(moved.together.shape), _OF_IMPACT, jac))
+                     moved.together["t_max"], bool(jac), errors, _mask(mask), threads_of(threads))
+        fields = _columns(rows.view(_IMPACT).reshape(moved.together.shape), _OF_IMPACT, jac)
+        if jac_error:
+            fields["jac_error"] = errors.reshape(moved.together.shape + (2,))
+        return SceneImpacts(fields)
 
     @_public
     def manifold(self, i, j):
