@@ -54,7 +54,7 @@ MovingFrame mount_of(Imported& imported, const std::string& name) {
     for (const ModelLink& link : imported.model->links) names.push_back(printable(link.name, 60));
   constexpr std::size_t enough = 40;
   if (names.size() > enough) names.resize(enough);
-  throw WrongUsage("--on: there is no link and no object \"" + printable(name, 60) + "\" (" +
+  throw WrongUsage("--on: no link or object is named \"" + printable(name, 60) + "\" (" +
                    suggestion(name, names) + ")");
 }
 
@@ -164,7 +164,7 @@ void run(ScanVerbOptions& options) {
 }
 
 void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
-  const std::string heading = "Rays and where they begin";
+  const std::string heading = "Rays and their origin";
   std::string models;
   for (const LidarModel& model : lidar_models())
     models += (models.empty() ? "" : ", ") + std::string(model.name);
@@ -203,7 +203,7 @@ void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
 }
 
 void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
-  const std::string heading = "What is measured";
+  const std::string heading = "Measurement";
   verb.add_option("--range", options.range, "Least and greatest range, in the scene's unit")
       .group(heading)
       .takes("MIN,MAX");
