@@ -7,6 +7,7 @@
 #include "core/mesh/mapped.h"
 #include "renderer/import/geometry_common.h"
 #include "renderer/import/hull_mass.h"
+#include "renderer/import/mesh_hull.h"
 #include "renderer/import/mjcf_builtin.h"
 #include "renderer/import/mjcf_height_field.h"
 #include "renderer/import/orientation.h"
