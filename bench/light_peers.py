@@ -65,7 +65,7 @@ def povray_scene(file, radiosity):
 
 
 def seconds_of(*words):
-    """What a command takes by the clock, and of the processors: that does not depend on what else the machine does."""
+    """Wall time and processor time of a command; the latter does not depend on other work of the machine."""
     def spent():
         usage = resource.getrusage(resource.RUSAGE_CHILDREN)
         return [time.monotonic(), usage.ru_utime + usage.ru_stime]
@@ -101,7 +101,7 @@ def read_pfm(file):
 
 
 def read_ppm(file):
-    """Of 16 bits a number, most significant byte first."""
+    """Reads a PPM with 16 bits per number, most significant byte first."""
     data = file.read_bytes()
     words, at = [], 0
     while len(words) < 4:
@@ -161,7 +161,7 @@ def seconds_beside(build, folder, name, our_reference, their_seconds, their_erro
 
 
 def beside_cycles(build):
-    """Of Blender the seconds of rendering alone are counted, of Minkray those of the whole program."""
+    """Compares with Cycles: seconds of rendering alone for Blender, of the whole program for Minkray."""
     folder = Path(tempfile.mkdtemp())
     our_scene(folder / "ours.json")
     _, our_reference = render(build, folder, 1024)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""A lidar beside a robot that moves: arm.py [ARM.URDF]"""
+"""A lidar next to a moving robot: arm.py [ARM.URDF]"""
 import sys
 
 import numpy as np

@@ -27,12 +27,12 @@ room.add(mk.ellipsoid([0.6, 0.5, 0.9]), pose_of([2, -1.5, 0.9], [0.2, 0, 0]), na
 true_pose = pose_of([0.3, -0.2, 0.8], [0.02, -0.03, 0.7])
 scan = room.cast_rays(mk.lidar((16, 360), true_pose))
 
-pose = pose_of([0.4, -0.25, 0.85], [0.05, 0.01, 0.6])  # what a tape measure and a good eye tell
+pose = pose_of([0.4, -0.25, 0.85], [0.05, 0.01, 0.6])  # measured by hand
 for step in range(20):
     rays = mk.lidar((16, 360), pose)
     hits = room.cast_rays(rays, jac=True)
     off = hits.t - scan.t
-    # A ray through an edge has no derivative, and one that meets another object now tells nothing.
+    # A ray through an edge has no derivative. A ray that now hits another object is useless.
     use = (hits.status == mk.HIT) & (scan.status == mk.HIT) & ~hits.is_ridge & (hits.object == scan.object)
     use[use] = np.abs(off[use]) <= 5 * np.median(np.abs(off[use])) + 1e-12
     # The sensor moves by v, and turns by w about its own origin: w x direction turns the ray.

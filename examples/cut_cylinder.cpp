@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A shape of your own: a cylinder cut by two oblique planes (which FCL's issue 642 asks for), given
+// A custom shape: a cylinder cut by two oblique planes (as FCL's issue 642 requests), given
 // by its support function. 1000 rays at it are proven.
 #include <minkray/minkray.h>
 

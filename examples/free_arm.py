@@ -6,7 +6,7 @@ import numpy as np
 
 import minkray as mk
 
-MARGIN = 0.05  # metres that it shall be from anything
+MARGIN = 0.05  # least distance from all objects (m)
 
 scene = mk.Scene()
 arm = scene.add_file(sys.argv[1] if len(sys.argv) > 1 else "arm.urdf")

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * A scene in C: two shapes, a ray, and what goes wrong, told. */
+ * A scene in C: two shapes, a ray, and the report of an error. */
 #include <math.h>
 #include <minkray/minkray_c.h>
 #include <stdio.h>

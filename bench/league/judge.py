@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What an answer is worth, beside the certificate of its case: no solver is the reference."""
+"""Judges a result by the certificate of its case: no solver is the reference."""
 import os
 import sys
 from fractions import Fraction as F
@@ -95,5 +95,5 @@ def judge(case, answer):
 
 
 def question(case):
-    """What a solver is told of a case."""
+    """The part of a case that is sent to a solver."""
     return {k: v for k, v in case.items() if k not in ('name', 'family', 'source', 'numbers', 'was', 'expect', 'certificate')}

@@ -10,7 +10,7 @@ import time
 
 
 class Solver:
-    """It is started when it is first asked, and anew after it crashed or was ended at the limit."""
+    """A solver's process, started at the first query and again after a crash or at the time limit."""
 
     def __init__(self, name, command, limit):
         self.name, self.command, self.limit = name, command, limit

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Casting one ray: the filter's answer, if it is in no doubt; else the later stages'.
+// Casts one ray: tries the filter; if that is inconclusive, the later stages run.
 #include "core/cast/cast.h"
 
 #include "core/cast/filter.h"
@@ -9,8 +9,7 @@
 namespace minkray {
 namespace {
 
-/// True if the shape's closed form may answer: no particular solver was requested, and no observer
-/// needs its steps.
+/// True if the shape has a closed form and no particular solver was requested.
 template <class T>
 bool asks_filter(const PreparedShape<T>& shape, const CastOptions<T>& options) {
   return options.solver == SolverKind::automatic &&
@@ -84,7 +83,7 @@ CastResult<T> cast_exit(const PreparedShape<T>& shape, const Ray<T>& ray,
     return exit_by_later_stages(shape, ray, options);
   };
   CastResult<T> result = answer();
-  // The ray may begin in the shape: no lower end is claimed.
+  // The ray may begin in the shape, so t has no lower bound.
   if (result.status == Status::hit) result.offset_lo = -std::numeric_limits<T>::infinity();
   return result;
 }

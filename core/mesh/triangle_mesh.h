@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A surface of triangles with shared vertices, and a BVH of their boxes: a body of many convex
-// parts under one pose.
+// A surface of triangles with shared vertices and its BVH: a body of many convex parts under one
+// pose.
 #pragma once
 
 #include <array>
@@ -18,22 +18,22 @@
 
 namespace minkray {
 
-/// Three vertices by their numbers, counter-clockwise as seen from outside.
+/// Indices of three vertices, counter-clockwise as seen from outside.
 using Corners = std::array<std::uint32_t, 3>;
 
 /// "No part": number for shapes, which have only one part.
 inline constexpr std::uint32_t no_part = ~std::uint32_t{0};
 
-/// Defects of a mesh, where vertices at the same place count as one. None of these makes results
-/// wrong: no ray meets a triangle without area, since rays meet its neighbours.
+/// Defects of a mesh; vertices at the same position count as one. None of these makes results
+/// wrong: rays hit the neighbours of a triangle without area instead.
 struct MeshFaults {
   std::size_t without_area = 0;
-  std::size_t repeated = 0;    ///< triangles whose three vertices another one has, too
+  std::size_t repeated = 0;    ///< triangles with the same vertices as another
   std::size_t open_edges = 0;  ///< edges with different numbers of triangles on their two sides
   bool is_closed() const { return open_edges == 0; }
 };
 
-/// Sides from which rays meet triangles. `front` requires that all triangles face the same way.
+/// Sides from which rays hit triangles. `front` requires that all triangles face the same way.
 enum class MeshSides : unsigned char { both, front };
 
 /// Immutable: any number of threads may use a mesh, and any number of instances may share it.

@@ -260,7 +260,7 @@ void add_cast(Parser& parser, ExitCode& exit_code) {
   const Verb verb = parser.add_verb("cast");
   const auto options = std::make_shared<CastVerbOptions>();
   verb.add_option("file", options->file, "A file of queries, - for stdin").required().reads_file();
-  verb.add_option("--precision", options->precision, "float or double")
+  verb.add_option("--precision", options->precision, "Precision of casts")
       .one_of({"float", "double"})
       .show_default();
   add_solver_option(verb, options->solver);
@@ -271,7 +271,7 @@ void add_cast(Parser& parser, ExitCode& exit_code) {
   verb.add_option("--threads", options->threads, "Threads; 0: one per core")
       .between(0, 1024)
       .show_default();
-  verb.add_flag("--trace", options->trace, "Add every iteration");
+  verb.add_flag("--trace", options->trace, "Add every iteration to the results");
   verb.add_flag("--certify", options->certify,
                 "Prove every cast's result; exit with 1 if a proof fails");
   verb.add_flag("--check", options->check,

@@ -42,11 +42,11 @@ void add_league(Parser& parser, ExitCode&) {
       .between(0, 100000)
       .show_default();
   verb.add_option("--seed", words->seed, "Random seed of --random").show_default();
-  verb.add_option("--limit", words->limit, "Seconds for an answer")
+  verb.add_option("--limit", words->limit, "Time limit per query in seconds")
       .between(0.01, 3600.0)
       .show_default();
-  verb.add_option("-o,--html", words->html, "A report: case by solver").writes_file();
-  verb.add_option("--json", words->json, "A file of all answers and verdicts").writes_file();
+  verb.add_option("-o,--html", words->html, "Report (HTML): cases by solver").writes_file();
+  verb.add_option("--json", words->json, "All results and verdicts (JSON)").writes_file();
   verb.add_flag("-q,--quiet", words->quiet, "No progress");
   verb.on_call([words] { run_beside("league", "minkray-league", own_words()); });
 }

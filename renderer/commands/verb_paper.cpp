@@ -87,7 +87,7 @@ void add_paper(Parser& parser, ExitCode&) {
   for (const PaperClaim& claim : claims) ids.emplace_back(claim.id);
   verb.add_option("--only", options->only, "One claim").one_of(ids);
   verb.add_option("--out", options->out, "A folder for the plots (SVG)").takes_folder();
-  verb.add_option("--rays", options->claim.rays, "Random rays for each figure")
+  verb.add_option("--rays", options->claim.rays, "Random rays per figure")
       .between(100, 100000000)
       .show_default();
   verb.add_option("--seed", options->claim.seed, "Seed of all random numbers").show_default();

@@ -54,7 +54,7 @@ MovingFrame mount_of(Imported& imported, const std::string& name) {
     for (const ModelLink& link : imported.model->links) names.push_back(printable(link.name, 60));
   constexpr std::size_t enough = 40;
   if (names.size() > enough) names.resize(enough);
-  throw WrongUsage("--on: there is no link and no object \"" + printable(name, 60) + "\" (" +
+  throw WrongUsage("--on: no link or object is named \"" + printable(name, 60) + "\" (" +
                    suggestion(name, names) + ")");
 }
 
@@ -164,7 +164,7 @@ void run(ScanVerbOptions& options) {
 }
 
 void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
-  const std::string heading = "Rays and where they begin";
+  const std::string heading = "Rays and their origin";
   std::string models;
   for (const LidarModel& model : lidar_models())
     models += (models.empty() ? "" : ", ") + std::string(model.name);
@@ -188,9 +188,8 @@ void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
                   "Link (of a robot) or object that the sensor is mounted on and moves with")
       .group(heading)
       .takes("NAME");
-  verb.add_option(
-          "--path", options.path,
-          "A CSV file of the sensor's poses: time (s), x, y, z, and qx, qy, qz, qw if wanted")
+  verb.add_option("--path", options.path,
+                  "Sensor path (CSV): time (s), x, y, z, optional qx, qy, qz, qw")
       .group(heading)
       .reads_file();
   verb.add_option("--start", options.scan.start, "Start of the sweep, in seconds")
@@ -203,7 +202,7 @@ void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
 }
 
 void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
-  const std::string heading = "What is measured";
+  const std::string heading = "Measurement";
   verb.add_option("--range", options.range, "Least and greatest range, in the scene's unit")
       .group(heading)
       .takes("MIN,MAX");
@@ -219,7 +218,7 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .takes("N")
       .show_default();
   verb.add_option("--returns", options.scan.returns,
-                  "Echoes per ray: bodies entered one behind another, or parts of a beam")
+                  "Echoes per ray: successive bodies, or parts of a beam")
       .group(heading)
       .between(1, 64)
       .show_default();
@@ -255,7 +254,7 @@ void add_scan(Parser& parser, ExitCode&) {
   std::string endings;
   for (const ScanFormat& format : scan_formats())
     endings += (endings.empty() ? "" : ", ") + std::string(format.ending);
-  verb.add_option("-o,--output", options->outputs, "Where to write (" + endings + "); repeatable")
+  verb.add_option("-o,--output", options->outputs, "Output (" + endings + "); repeatable")
       .required()
       .one_value_each()
       .writes_file();

@@ -269,7 +269,8 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
   verb.add_option("--padding", inputs.cell.padding, "Distance that links keep from obstacles (m)")
       .between(0.0, 1e6)
       .show_default();
-  verb.add_option("--inflate", inputs.inflate, "Padding of one link instead (m); repeatable")
+  verb.add_option("--inflate", inputs.inflate,
+                  "Padding of one link (m), instead of --padding; repeatable")
       .takes("LINK=RADIUS")
       .one_value_each();
   verb.add_flag("--only-obstacles", inputs.cell.only_obstacles,

@@ -51,8 +51,7 @@ inline constexpr std::array data_channels = {
                            DataChannelDescription::By::samples},
     DataChannelDescription{
         "cryptomatte", "",
-        "mattes of all objects by name: the planes CryptoObject00.R to 02.A, and "
-        "the names in the header",
+        "Cryptomatte of all objects by name (CryptoObject00.R to 02.A, names in the header)",
         DataChannelDescription::By::samples},
     DataChannelDescription{
         "status", "",

@@ -109,7 +109,7 @@ def cpp_table(folder):
 
 
 def python_table(folder):
-    """What the stubs declare, with the docs of the modules."""
+    """Declarations of the stubs, with the docs of the modules."""
     docs = {}
     for name in sorted(os.listdir(folder)):
         if not name.endswith(".py"):

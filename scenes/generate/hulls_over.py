@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""hulls_over.py SEEN.json COLLISION.json OUT.json: two scenes that minkray import wrote of one robot, what is
-seen of it as solid bodies, and what collides as tinted glass around them."""
+"""hulls_over.py VISUAL.json COLLISION.json OUT.json: joins two imports of one robot: its visual shapes as solid
+bodies, its collision shapes as tinted glass around them."""
 import json
 import sys
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the scripts in this folder share: rotations, poses, and writing a scene file."""
+"""Common code of the scripts in this folder: rotations, poses, and writing a scene file."""
 import json
 import math
 import pathlib

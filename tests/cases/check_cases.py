@@ -102,7 +102,7 @@ def reach(s, n):
 
 
 def inside(s, p, of=None):
-    """Whether p is a point of the shape; `of` names vertices that it lies between."""
+    """True if p is a point of the shape; `of` names vertices that it lies between."""
     kind, size = s['type'], lambda key: num(s[key])
     if kind in ('point', 'segment', 'triangle', 'hull'):
         all_of = vertices(s)
@@ -227,7 +227,7 @@ def check_distance(case, c, expect):
 
 
 def check(case):
-    """What is wrong with a case, or an empty text."""
+    """The error in a case, or an empty text."""
     try:
         kind = check_cast if case['query'] in ('ray', 'shape') else check_distance
         kind(case, case['certificate'], case['expect'])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the parts of ./run soak have in common: a folder that is gone afterwards, programs with their
+"""Common code of the parts of ./run soak: a folder that is removed afterwards, programs with their
 time and peak memory, and pictures as numbers."""
 import array
 import filecmp
@@ -17,7 +17,7 @@ cores = len(os.sched_getaffinity(0))
 
 
 class Failure(Exception):
-    """What must hold does not."""
+    """A condition of the soak test does not hold."""
 
 
 def expect(holds, text):

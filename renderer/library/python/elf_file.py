@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What a wheel has to change in programs and shared libraries: which libraries they need, and where they look.
+"""Changes programs and shared libraries for a wheel: the libraries that they need, and where they look.
 
 Names are changed in place, to names of the same length. ELF of 64 bits, little-endian.
 """

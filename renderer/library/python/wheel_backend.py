@@ -76,7 +76,7 @@ def _files(folder, programs):
 
 
 def _stripped(file):
-    """What is in it; of programs and libraries without names of symbols that nobody looks for."""
+    """Content of a file; programs and libraries are stripped of unused symbol names."""
     with open(file, "rb") as data:
         contents = data.read()
     if contents[:4] != b"\x7fELF" or not shutil.which("strip"):
@@ -172,7 +172,7 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 
 
 def build_sdist(sdist_directory, config_settings=None):
-    """What git has of the sources."""
+    """Sources in git."""
     name = f"minkray-{_version()}"
     with tempfile.TemporaryDirectory() as folder:
         info = os.path.join(folder, "PKG-INFO")

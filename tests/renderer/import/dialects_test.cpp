@@ -321,7 +321,7 @@ TEST_F(MeshFolder, rows_of_joints_beyond_their_limits_are_told) {
   ImportOptions options;
   options.joint_rows = folder.write("rows.csv", "\xef\xbb\xbftime,j\n0,0\n1,2\n2,3\n");
   const Imported moved = import("r.urdf", robot, options);
-  EXPECT_TRUE(tells(*moved.model, "limit of the joint \"j\"", "it stands at 3, beyond -1 to 1"));
+  EXPECT_TRUE(tells(*moved.model, "limit of the joint \"j\"", "at 3, outside -1 to 1"));
   options.joint_rows = folder.write("rows.csv", "time,j,j\n0,0,0\n");
   EXPECT_NE(complaint(folder / "r.urdf", options).find("column \"j\": duplicate (given 2 times)"),
             std::string::npos);

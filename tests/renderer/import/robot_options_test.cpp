@@ -88,8 +88,7 @@ TEST_F(RobotOptions, joints_beyond_their_limits_stand_there_and_are_told) {
   const Imported imported = import_scene(file, options);
   EXPECT_EQ(last_place(imported).x(), 1.5);
   const std::string text = model_as_text(*imported.model);
-  EXPECT_NE(text.find("limit of the joint \"right\": it stands at 1.5, beyond 0 to 1"), text.npos)
-      << text;
+  EXPECT_NE(text.find("limit of the joint \"right\": at 1.5, outside 0 to 1"), text.npos) << text;
   EXPECT_EQ(text.find("limit of the joint \"left\""), text.npos);
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""What the Python module promises: python_test.py SOURCES (PYTHONPATH: the module's folder)."""
+"""Promises of the Python module: python_test.py SOURCES (PYTHONPATH: the module's folder)."""
 import os
 import pickle
 import signal

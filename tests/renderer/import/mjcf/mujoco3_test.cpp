@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "renderer/import/model/mesh_hull.h"
 #include "tests/renderer/import/imports.h"
 
 namespace minkray {
