@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // GJK ray cast: Algorithm 3 of G. van den Bergen, "Ray Casting against General Convex Objects with
-// Application to Continuous Collision Detection" (2004), section 4. Letters: x = s + lambda r is the
-// ray; p a support point, w = x - p; P the simplex' support points, Y = x - P; v the simplex' point
-// closest to the origin and the next direction; n the last v that moved lambda. Points are relative
-// to the bounding ball's centre, lambda to the ray's closest approach.
+// Application to Continuous Collision Detection" (2004), section 4. Letters: x = s + lambda r is
+// the ray; p a support point, w = x - p; P the simplex' support points, Y = x - P; v the simplex'
+// point closest to the origin and the next direction; n the last v that moved lambda. Points are
+// relative to the bounding ball's centre, lambda to the ray's closest approach.
 #pragma once
 
 #include <array>
