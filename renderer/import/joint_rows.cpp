@@ -169,7 +169,8 @@ class RowReader {
         row.values.emplace_back(name, std::move(*numbers));
       }
     }
-    if (!rows_.empty() && !(row.time > rows_.back().time)) of_file_.add(path / "time", "must rise");
+    if (!rows_.empty() && !(row.time > rows_.back().time))
+      of_file_.add(path / "time", "must increase");
     rows_.push_back(std::move(row));
   }
 

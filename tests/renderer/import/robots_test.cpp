@@ -83,7 +83,7 @@ TEST(Urdf, mistakes_are_told_all_at_once_with_their_lines) {
 <joint name="j" type="revolving"><parent link="a"/><child link="nobody"/></joint>
 </robot>)");
   for (const char* expected :
-       {"line 2: <box>: size", "line 3: <link name=\"a\">: name: must not be the name of two",
+       {"line 2: <box>: size", "line 3: <link name=\"a\">: name: duplicate link",
         "line 4: <wedge>: must be one of box", "searched:", "line 6: <joint name=\"j\">: type",
         "the link \"nobody\" not found"})
     EXPECT_NE(mistakes.find(expected), mistakes.npos) << expected << " in\n" << mistakes;

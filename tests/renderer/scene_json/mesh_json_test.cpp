@@ -82,7 +82,7 @@ TEST_F(MeshJson, terrains_are_read_of_heights_and_pictures) {
             "below all heights"},
            {R"("height_field": {"file": "gone.png", "size": [4, 1, 1]})", "gone.png"},
            {R"("height_field": {"heights": [[0, 1], [1, 2]], "size": [4, 1]}, "shape": 1)",
-            "beside"}})
+            "together"}})
     EXPECT_NE(wrong(object).find(message), std::string::npos) << mistakes_.text();
 }
 
