@@ -119,7 +119,7 @@ int head_lines(std::string_view source) {
 }
 
 /// All sources in C++ that have comments of ours.
-std::vector<SourceFile> sources() {
+std::vector<SourceFile> commented_sources() {
   std::vector<SourceFile> found;
   for (const char* top : {"core", "renderer", "include", "tests", "bench", "tools"}) {
     if (!std::filesystem::exists(source_folder() / top)) continue;
@@ -147,7 +147,7 @@ TEST(Comments, odd_words_are_found) {
 
 TEST(Comments, have_no_odd_words) {
   std::size_t comments = 0;
-  for (const SourceFile& file : sources())
+  for (const SourceFile& file : commented_sources())
     for (const std::string& comment : comments_of(file.text)) {
       ++comments;
       const OddWords odd = odd_words_in(comment);
@@ -159,7 +159,7 @@ TEST(Comments, have_no_odd_words) {
 
 TEST(Comments, at_the_top_of_a_file_have_few_lines) {
   EXPECT_EQ(head_lines("// SPDX-License-Identifier: MIT\n// A ball.\n//\n\n// Round.\n"), 2);
-  for (const SourceFile& file : sources())
+  for (const SourceFile& file : commented_sources())
     EXPECT_LE(head_lines(file.text), most_head_lines)
         << file.name << ": move derivations next to the code or to docs/";
 }
