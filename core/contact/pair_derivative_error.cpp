@@ -78,8 +78,8 @@ Crossing on_edges(const Vec3<double>& u, const Vec3<double>& to_a, double beside
   return {(to_a - on_a).norm() + slide + beside_a, (to_b - on_b).norm() + slide + beside_b};
 }
 
-/// True if the nearest point is between the ends of a straight edge, one of which the support point
-/// is. A hull's edge may continue behind that.
+/// True if the nearest point is between the ends of a straight edge. The support point is one of
+/// them, but a hull's edge may continue behind it.
 bool is_between_ends(const ShapeCore& core, const Slide& slide, double at, double off) {
   if (core.kind != CoreKind::hull && core.kind != CoreKind::other) at = std::abs(at);
   return slide.beside == 0 && at > off && at < slide.flat.length - off;
