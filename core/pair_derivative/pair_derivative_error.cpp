@@ -67,12 +67,22 @@ struct Crossing {
 };
 Crossing on_edges(const Vec3<double>& u, const Vec3<double>& to_a, double beside_a,
                   const Vec3<double>& v, const Vec3<double>& to_b, double beside_b,
-                  const Vec3<double>& between, double unsure) {
-  const double sine = u.cross(v).norm();
+                  const Vec3<double>& between, double unsure, const Drift& drift) {
+  const double sine = u.cross(v).norm() - 2 * drift.turn;
+  if (!(sine > 0)) return {};
   const Vec3<double> on_a = u.dot(to_a) * u, on_b = v.dot(to_b) * v;
-  const double off = (between + on_b - on_a).norm() + unsure + beside_a + beside_b;
-  const double slide = std::sqrt(2.0) * off / sine;
+  const double turned = drift.turn * (on_a.norm() + on_b.norm());
+  const double off =
+      (between + on_b - on_a).norm() + unsure + drift.way + turned + beside_a + beside_b;
+  const double slide = std::sqrt(2.0) * off / sine + drift.way + turned;
   return {(to_a - on_a).norm() + slide + beside_a, (to_b - on_b).norm() + slide + beside_b};
+}
+
+/// True if the nearest point is between the ends of a straight edge. The support point is one of
+/// them, but a hull's edge may continue behind it.
+bool is_between_ends(const ShapeCore& core, const Slide& slide, double at, double off) {
+  if (core.kind != CoreKind::hull && core.kind != CoreKind::other) at = std::abs(at);
+  return slide.beside == 0 && at > off && at < slide.flat.length - off;
 }
 
 }  // namespace
@@ -88,51 +98,67 @@ PairDerivativeError error_of(const CoresInWorld& cores, const CoreContact& conta
   const auto slide_by_drift = [&](const ShapeCore& core, const Vec3<double>& d) {
     return drift.turn > 0 ? slide_of(core, d, drift.turn).any : 0;
   };
-  double height = n.dot(c);
+  const double height = n.dot(c);
   double low = height - rounding - drift.way, high = found.upper + radii + drift.way;
-  double tilt = depth_tilt;
-  double off = infinity;  ///< the true c is no further from `height` times n
+  double tilt = depth_tilt, aside = infinity;
   if (low > 0) {
     // Between a plane and a point, and by how much the support point is aside: projections onto a
     // convex body are no further apart than what is projected.
-    const double aside = (c - height * n).norm() + rounding + drift.way +
-                         slide_by_drift(cores.a, down_a) + slide_by_drift(cores.b, down_b);
-    const double lens = std::sqrt(2 * std::max(high - low, 0.0) / high);
-    tilt = std::min(lens, 1.5 * aside / low);
-    const double moved = std::max(high - low, 0.0) + rounding + drift.way + drift.turn * high;
-    if (cores.b.kind == CoreKind::point)
-      tilt = std::min(tilt, drift.turn + tilt_over(cores.a, cores.turn_a.transpose() * s_b, down_a,
-                                                   height, moved));
-    if (cores.a.kind == CoreKind::point)
-      tilt = std::min(
-          tilt, drift.turn + tilt_over(cores.b, cores.turn_b.transpose() * (s_a - cores.between.x),
-                                       down_b, height, moved));
-    off = std::min(aside, std::max(high - low, 0.0) + high * tilt) + drift.way;
+    high = std::max(high, low);
+    aside = (c - height * n).norm() + rounding + drift.way + slide_by_drift(cores.a, down_a) +
+            slide_by_drift(cores.b, down_b);
+    tilt = std::min(std::sqrt(2 * (high - low) / high), 1.5 * aside / low);
   } else if (high < 0) {
     low = found.lower + radii;
-    off = std::max(std::abs(high - height), std::abs(low - height)) + std::abs(low) * tilt;
   }
   PairDerivativeError error;
   if (!(tilt < 0.5)) return error;
-  tilt += 8 * std::numeric_limits<double>::epsilon();
-  const Slide a = slide_of(cores.a, down_a, tilt + drift.turn);
-  const Slide b = slide_of(cores.b, down_b, tilt + drift.turn);
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  const Slide a = slide_of(cores.a, down_a, tilt + 8 * epsilon + drift.turn);
+  const Slide b = slide_of(cores.b, down_b, tilt + 8 * epsilon + drift.turn);
   const Vec3<double> point_b = contact.a + contact.c;
   const Vec3<double> to_a = contact.a - s_a, to_b = point_b - s_b;
+  if (low > 0) {
+    // A corner is a point over the other core.
+    const double moved = high - low + rounding + drift.way + drift.turn * high;
+    if (b.any == 0)
+      tilt = std::min(tilt, drift.turn + tilt_over(cores.a, cores.turn_a.transpose() * s_b, down_a,
+                                                   height, moved));
+    if (a.any == 0)
+      tilt = std::min(
+          tilt, drift.turn + tilt_over(cores.b, cores.turn_b.transpose() * (s_a - cores.between.x),
+                                       down_b, height, moved));
+  }
+  // The true c is no further from `height` times n.
+  const auto off_by = [&](double lean) {
+    if (low > 0) return std::min(aside, high - low + high * lean) + drift.way;
+    return std::max(std::abs(high - height), std::abs(low - height)) + std::abs(low) * lean;
+  };
+  Crossing crossing;
+  if (a.flat.dimension == 1 && b.flat.dimension == 1) {
+    const Vec3<double> u = cores.turn_a * a.flat.along, v = cores.turn_b * b.flat.along;
+    const auto cross = [&] {
+      return on_edges(u, to_a, a.beside, v, to_b, b.beside, c - height * n, off_by(tilt), drift);
+    };
+    crossing = cross();
+    // Between the ends of both the normal is across them.
+    if (low > 0 && is_between_ends(cores.a, a, u.dot(to_a), crossing.a) &&
+        is_between_ends(cores.b, b, v.dot(to_b), crossing.b)) {
+      const Vec3<double> across = u.cross(v);
+      const double sine = across.norm();
+      const double lean = std::min((across / sine - n).norm(), (across / sine + n).norm());
+      tilt = std::min(tilt, lean + (2 * drift.turn + 16 * epsilon) / (sine - 2 * drift.turn));
+      crossing = cross();
+    }
+  }
+  tilt += 8 * epsilon;
+  const double off = off_by(tilt);
   double of_a = to_a.norm() + a.any, of_b = to_b.norm() + b.any;
   // One of them leads to the other.
-  of_a = std::min(of_a, (contact.a - (s_b - height * n)).norm() + b.any + off);
-  of_b = std::min(of_b, (point_b - (s_a + height * n)).norm() + a.any + off);
-  if (a.flat.dimension == 1 && b.flat.dimension == 1 && !(drift.turn > 0)) {
-    const Crossing crossing =
-        on_edges(cores.turn_a * a.flat.along, to_a, a.beside, cores.turn_b * b.flat.along, to_b,
-                 b.beside, c - height * n, off + 2 * drift.way);
-    of_a = std::min(of_a, crossing.a);
-    of_b = std::min(of_b, crossing.b);
-  }
+  of_a = std::min({of_a, (contact.a - (s_b - height * n)).norm() + b.any + off, crossing.a});
+  of_b = std::min({of_b, (point_b - (s_a + height * n)).norm() + a.any + off, crossing.b});
   const double far =
-      rounding + drift.way +
-      4 * std::numeric_limits<double>::epsilon() * std::max(origin_a.norm(), origin_b.norm());
+      rounding + drift.way + 4 * epsilon * std::max(origin_a.norm(), origin_b.norm());
   error.a = {tilt, of_a + far + tilt * (contact.a - origin_a).norm()};
   error.b = {tilt, of_b + far + tilt * (point_b - origin_b).norm()};
   return error;

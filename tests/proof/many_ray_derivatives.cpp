@@ -254,7 +254,7 @@ Row judge_shape(const Shape<double>& shape, RandomShapes& random) {
       const Long exact = by_first.cast<Long>().dot(first.cast<Long>()) +
                          by_second.cast<Long>().dot(second.cast<Long>());
       // Differences that are much coarser than the bound judge nothing.
-      judged += slope.unsure <= 10 * allowed ? 1 : 0;
+      judged += std::isfinite(allowed) && slope.unsure <= 10 * allowed ? 1 : 0;
       outside += std::abs(slope.derivative - exact) - 3 * slope.unsure > allowed ? 1 : 0;
     }
     if (is_ridged) {

@@ -17,7 +17,7 @@ double error_at(const Shape<double>& shape, const Vec3<double>& point, const Vec
 }
 
 TEST(NormalError, is_what_curvature_and_the_normal_itself_allow) {
-  const double off = 1e-9, small = 1e-14;
+  const double off = 1e-9, small = 1e-13;
   EXPECT_NEAR(error_at(Sphere<double>{2}, {2, 0, 0}, x_axis, off), off / 2, small);
   EXPECT_NEAR(error_at(Box<double>{{1, 1, 1}}, {1, 0.2, 0}, x_axis, off), 0, small);
   EXPECT_NEAR(error_at(Cylinder<double>{2, 1}, {2, 0, 0.3}, x_axis, off), off / 2, small);
@@ -36,7 +36,7 @@ TEST(NormalError, of_hulls_is_that_of_the_part_below) {
       for (const double z : {-1.0, 1.0}) corners.emplace_back(x, y, z);
   const Shape<double> hull = Hull<double>{PointCloud<double>(corners)};
   const Shape<double> grown = Rounded<double>{0.5, hull};
-  const double off = 1e-9, small = 1e-14;
+  const double off = 1e-9, small = 1e-13;
   EXPECT_NEAR(error_at(hull, {1, 0.2, 0.1}, x_axis, off), 0, small);
   EXPECT_TRUE(std::isinf(error_at(hull, {1, 1, 0.1}, x_axis, off)));
   EXPECT_NEAR(error_at(grown, {1.5, 0.2, 0.1}, x_axis, off), 0, small);
