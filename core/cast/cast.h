@@ -34,8 +34,7 @@ template <class T>
 CastResult<T> cast_ray(const PreparedShape<T>& shape, const Ray<T>& ray,
                        const CastOptions<T>& options = {}, const CastObserver<T>& observer = {});
 
-/// The same at a shape that is posed for this ray alone: by its closed form it need not be
-/// prepared.
+/// Casts at a shape that is posed for this ray only. A closed form needs no prepared shape.
 CastResult<double> cast_ray(const ShapeDefinition<double>& definition, const Affine<double>& pose,
                             const Ray<double>& ray);
 

@@ -6,7 +6,7 @@
 namespace minkray {
 namespace {
 
-/// Where fma is an instruction, the filter is compiled for it, as one function.
+/// Compiles the filter as one function for machines where fma is an instruction.
 struct PlaceWithFma : FormPlace {
   static constexpr bool has_fma = true;
 };

@@ -9,7 +9,7 @@
 
 namespace minkray {
 
-/// What the filter reads of a PreparedShape. Lasts for a moment; the definition and the map outlive
+/// Holds the part of a PreparedShape that the filter reads. The definition and the map must outlive
 /// it.
 class FormPlace {
  public:

@@ -73,12 +73,10 @@ struct NearBodies {
 /// Both are points: balls around their middles.
 SignedDistance of_balls(const NearBodies& near) {
   const Vec3<double>& x = near.between.x;
-  const double distance = length_of(x);
   const auto search = [&] {
-    const Vec3<double> axis = distance > 0 ? unit<double>(x) : Vec3<double>::UnitX();
-    return closed_answer(distance, axis, Vec3<double>::Zero(), x);
+    return closed_between(Vec3<double>::Zero(), x, Vec3<double>::UnitX());
   };
-  return bounded(search, near.a, near.b, distance, near.between.loss, near.origin,
+  return bounded(search, near.a, near.b, x.norm(), near.between.loss, near.origin,
                  [](const Vec3<double>& v) -> const Vec3<double>& { return v; });
 }
 

@@ -87,7 +87,7 @@ class Advance {
     touching_ = options.touching * size_;
   }
 
-  /// They do not meet: a plane with this normal is between them until the end.
+  /// Result of a miss: a plane with this normal separates the two until the end.
   Impact run_missed(const Vec3<double>& normal) {
     bring_near();
     return miss(t_max_, normal);

@@ -155,8 +155,7 @@ class Instances {
             ShapeDefinition<double>::plain_centre({map.transpose(), origin}, body.centre), turn,
             (body.is_turned ? definition.plain_loss() : 0) + loss};
   }
-  /// The instance's place for the filter; `map` is written, and has to stay as long. It has no
-  /// movement.
+  /// Returns the place of an instance at rest for the filter. Writes `map`, which must outlive it.
   FormPlace form_place(std::size_t i, Mat3<double>& map) const {
     const InstancePlace& place = places_[i];
     const InstanceBody& body = bodies_[place.body];

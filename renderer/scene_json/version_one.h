@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What scene files of version 1 may not hold, since programs that know that version alone could not
-// read it.
+// Checks that a scene file of version 1 uses no later keys, which programs for version 1 cannot
+// read.
 #pragma once
 
 #include <string_view>
@@ -24,8 +24,8 @@ inline constexpr LaterKey later_keys[] = {
     {LaterKey::Of::items, "objects", "include"}, {LaterKey::Of::items, "objects", "objects"},
     {LaterKey::Of::items, "objects", "color"},   {LaterKey::Of::items, "objects", "pivot"}};
 
-/// Adds a mistake at each key or value of version 2 that tells which version to write. Other
-/// mistakes are not looked for.
+/// Adds a mistake at each key or value of version 2, with the version to write. Other mistakes are
+/// ignored.
 void refuse_version_two(const Json& scene, Mistakes& mistakes);
 
 }  // namespace minkray

@@ -70,7 +70,7 @@ TEST_F(JointRows, mistakes_are_told_with_their_place) {
   const std::string all = told(
       R"([{"time": 1, "none": 0}, {"time": 1, "push": "far"}, 7, {"time": 2, "ball": [1, 0]}])");
   for (const char* expected :
-       {"/0/none: there is no joint", "/1/push: must be", "/1/time: must increase",
+       {"/0/none: no joint has this name", "/1/push: must be", "/1/time: must increase",
         "/2: must be an object", "/3/ball: must be"})
     EXPECT_NE(all.find(expected), all.npos) << expected << " in\n" << all;
   EXPECT_NE(told("[]").find("must have rows"), std::string::npos);

@@ -78,7 +78,7 @@ class Mistakes(unittest.TestCase):
                 "Shape: must be made by functions such as minkray.box": lambda: mk.Shape(),
                 "Shape.support: directions: must have the shape (N, 3)": lambda: ball.support([1, 0, 0]),
                 "Shape.support: must be called as support(directions)": lambda: ball.support(),
-                "Shape.json: shape: cannot be written": lambda: mk.custom(lambda n: n).json()}.items():
+                "Shape.json: shape: custom support functions cannot be written": lambda: mk.custom(lambda n: n).json()}.items():
             with self.subTest(text):
                 self.expect(text, work)
 
@@ -292,7 +292,7 @@ class Answers(unittest.TestCase):
         self.assertEqual(hits.object[0], other)
         self.assertEqual(scene.names, [None, "other"])
         self.assertIn("1 objects: other", repr(scene))
-        with self.assertRaisesRegex(mk.Error, r"Scene.remove: object: must not be one that was removed \(got 0\)"):
+        with self.assertRaisesRegex(mk.Error, r"Scene.remove: object: must not be removed \(got 0\)"):
             scene.remove(0)
 
 

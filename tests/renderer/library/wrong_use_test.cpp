@@ -285,14 +285,14 @@ TEST(WrongUse, of_counts_that_no_memory_holds_is_told) {
   for (const std::size_t rows : {minus_one, std::size_t{1} << 63, std::size_t{1} << 61})
     expect_error(
         minkray_scene_clearance(scene, arm, path.data(), rows, joints, nullptr, nullptr, &least),
-        MINKRAY_WRONG_USE, "rows: must be of things that are in memory");
+        MINKRAY_WRONG_USE, "rows: must fit into memory");
   std::vector<double> far(2 * joints, -1e308);
   far.back() = 1e308;
   expect_error(minkray_scene_clearance(scene, arm, far.data(), 2, joints, nullptr, nullptr, &least),
                MINKRAY_WRONG_USE, "path: row 2 of 2: the joint");
   minkray_hit hit;
   expect_error(minkray_scene_cast(scene, &along_x, minus_one, &hit, nullptr), MINKRAY_WRONG_USE,
-               "count: must be of things that are in memory");
+               "count: must fit into memory");
   minkray_scene_release(scene);
   const minkray_shape shape = ball();
   const double direction[1][3] = {{1, 0, 0}};

@@ -243,7 +243,7 @@ TEST(Mjcf, geoms_of_one_mesh_have_one_hull) {
   // Few lines of it could give many meshes many vertices.
   mistakes = Mistakes("robot.xml");
   EXPECT_FALSE(parse_model(file_with("<mesh " + vertices + "/>", ""), "robot.xml", {}, mistakes));
-  EXPECT_NE(mistakes.text().find("line 2: <mesh name=\"t\">: vertex: must stand in the <mesh>"),
+  EXPECT_NE(mistakes.text().find("line 2: <mesh name=\"t\">: vertex: must be in the <mesh> itself"),
             std::string::npos)
       << mistakes.text();
 }
@@ -267,7 +267,7 @@ TEST(Mjcf, mistakes_are_told_all_at_once_with_their_lines) {
   for (const char* expected :
        {"line 2: <compiler>: angle", "line 4: <geom>: size: of a capsule must be 2 numbers > 0",
         "line 5: <geom>: type", "line 6: <joint>: axis", "line 7: <geom>: size",
-        "line 8: <geom>: mesh: there is no <mesh>", "line 9: <replicate>: count: must be"})
+        "line 8: <geom>: mesh: no <mesh> is named", "line 9: <replicate>: count: must be"})
     EXPECT_NE(told.find(expected), told.npos) << expected << " in\n" << told;
 }
 
