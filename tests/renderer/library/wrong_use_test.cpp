@@ -298,7 +298,7 @@ TEST(WrongUse, of_counts_that_no_memory_holds_is_told) {
   const double direction[1][3] = {{1, 0, 0}};
   double point[1][3];
   expect_error(minkray_shape_support(shape, minus_one, direction, point), MINKRAY_WRONG_USE,
-               "count: must be");
+               "count: must fit into memory");
   minkray_shape_release(shape);
 }
 
