@@ -83,7 +83,7 @@ CastResult<T> cast_exit(const PreparedShape<T>& shape, const Ray<T>& ray,
     return exit_by_later_stages(shape, ray, options);
   };
   CastResult<T> result = answer();
-  // The ray may begin in the shape, so t has no lower bound.
+  // The ray may start inside, so no lower bound is claimed.
   if (result.status == Status::hit) result.offset_lo = -std::numeric_limits<T>::infinity();
   return result;
 }

@@ -19,8 +19,8 @@ struct CastOptions {
   /// The paper's eps_tol, for the solvers that have one: relative, of a squared length.
   T eps_tol = tolerance::gjk_squared<T>;
   int max_iterations = tolerance::gjk_max_iterations;
-  /// A normal to begin with, in the ray's frame, for the solvers that take one: the separating
-  /// plane's of the previous frame. Zero for none.
+  /// Initial normal, in the ray's frame, for solvers that take one: such as that of the last
+  /// image's separating plane. Zero: none.
   Vec3<T> v0 = Vec3<T>::Zero();
 };
 
@@ -29,7 +29,8 @@ using CastObserver = std::function<void(const CastIteration<T>&)>;
 
 /// Finds where the ray enters the shape: the least t in [0, t_max] at which origin + t * direction
 /// lies in it. Origin in the shape: status inside, t = 0. Numbers must be finite, t_max may be
-/// infinite. The observer, if any, receives every iteration, in the shape's inner frame.
+/// infinite. The observer, if any, receives every iteration, in the inner frame (see
+/// PreparedShape).
 template <class T>
 CastResult<T> cast_ray(const PreparedShape<T>& shape, const Ray<T>& ray,
                        const CastOptions<T>& options = {}, const CastObserver<T>& observer = {});
@@ -38,8 +39,8 @@ CastResult<T> cast_ray(const PreparedShape<T>& shape, const Ray<T>& ray,
 CastResult<double> cast_ray(const ShapeDefinition<double>& definition, const Affine<double>& pose,
                             const Ray<double>& ray);
 
-/// Finds where the ray leaves the shape: the greatest t in [0, t_max] at which the ray lies in the
-/// shape. Status hit: it leaves at t. Inside: it ends at t = t_max still in the shape. Miss: it
+/// Finds where the ray leaves the shape: the greatest t in [0, t_max] whose point lies in the
+/// shape. Status hit: it leaves at t. Inside: the point at t = t_max still lies in it. Miss: it
 /// never meets the shape.
 template <class T>
 CastResult<T> cast_exit(const PreparedShape<T>& shape, const Ray<T>& ray,

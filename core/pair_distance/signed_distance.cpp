@@ -12,10 +12,10 @@
 namespace minkray {
 namespace {
 
-/// Bounds and points of the shapes, with their radii, as `search` finds them for the cores; sizes
-/// out of its range are not searched, except for balls. `distance` is that of the middles, with an
-/// error of at most `loss`; `to_world` turns from the frame of the search, whose origin is A's
-/// middle, at `origin`.
+/// Bounds and points of the shapes from those that `search` finds for their cores. Except for
+/// balls, sizes out of its range are not searched. `distance`: between the middles, with an error
+/// of at most `loss`. `to_world` turns from the frame of the search, whose origin is A's middle, at
+/// `origin`.
 template <class Search, class ToWorld>
 SignedDistance bounded(const Search& search, const ContactShape& a, const ContactShape& b,
                        double distance, double loss, const Vec3<double>& origin,
@@ -24,7 +24,7 @@ SignedDistance bounded(const Search& search, const ContactShape& a, const Contac
   const double size = a.core().ball + b.core().ball + radii;
   const double allowed = core_rounding * (size + distance) + loss;
   SignedDistance result;
-  if (!std::isfinite(allowed)) return result;  // squares of such lengths are no numbers
+  if (!std::isfinite(allowed)) return result;  // squares of such lengths overflow
   const bool are_balls = a.core().kind == CoreKind::point && b.core().kind == CoreKind::point;
   if (!are_balls && !are_searchable(size, distance)) return result;
   const CoreDistance found = search();
@@ -50,8 +50,8 @@ SignedDistance bounded(const Search& search, const ContactShape& a, const Contac
   const Vec3<double>& on_a = to_world(found.a);
   const Vec3<double>& between = to_world(found.c);
   result.normal = unit<double>(axis);
-  // If the cores' points are connected slightly aside of the normal, those of the bodies still are
-  // along it, by a path as long as the value. Closed forms end with one direction for both.
+  // If the line between the cores' points deviates from the normal, the radii make up for it: the
+  // bodies' points lie along the normal, `value` apart. Closed forms have one direction for both.
   const bool is_aside = is_from_points && found.lower < found.upper && radii > 0;
   const Vec3<double> outwards =
       is_aside ? unit<double>(between - std::min(result.value, 0.0) * result.normal) : axis;
@@ -108,7 +108,7 @@ SignedDistance of_point_and_solid(const NearBodies& near) {
                  [&](const Vec3<double>& v) -> Vec3<double> { return turn * v; });
 }
 
-/// A's kind is not after B's: the solvers are compiled for one order of two kinds.
+/// Requires A's kind <= B's: solvers are compiled for this order only.
 SignedDistance in_order(const NearBodies& near, const SignedDistanceOptions& options,
                         PairMemory* memory) {
   if (near.b.core().kind == CoreKind::point) return of_balls(near);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Distance of two convex shapes or, if they overlap, minus the length of the least translation that
 // separates them (S. Cameron, R. Culley, "Determining the minimum translational distance between
-// two convex polyhedra", 1986): the largest gap between two parallel planes with A on one side and
-// B on the other. One plane proves the lower bound; two points, or points of B - A around the
+// two convex polyhedra", 1986): the largest signed gap of parallel planes that bound A on one side,
+// B on the other. One such gap proves the lower bound; two points, or points of B - A around the
 // origin, the upper one.
 #pragma once
 
@@ -15,9 +15,9 @@ namespace minkray {
 
 enum class SignedStatus : unsigned char {
   separated,    ///< lower > 0
-  touching,     ///< the bounds are on both sides of 0, and within the tolerance
+  touching,     ///< 0 is between the bounds, which differ by at most 1e-9 of the sizes
   overlapping,  ///< upper < 0
-  undecided,    ///< the bounds hold, but are not within the tolerance
+  undecided,    ///< 0 is between the bounds, which differ by more
 };
 
 constexpr std::string_view name_of(SignedStatus status) {
@@ -39,22 +39,22 @@ struct SignedDistance {
   double value = 0;  ///< in [lower, upper], which allow for rounding; see is_unknown()
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
-  /// Points of A and B, in the world, with point_b - point_a = value * normal but for the
-  /// deviation allowed in docs/contact.md: the nearest ones; or where the two touch first, moved
-  /// apart.
+  /// Nearest points of A and B, in the world, or those that touch first when the two are moved
+  /// apart. point_b - point_a = value * normal, up to the error in docs/contact.md.
   Vec3<double> point_a = Vec3<double>::Zero();
   Vec3<double> point_b = Vec3<double>::Zero();
-  /// Unit vector from A to B, across planes `lower` apart. Moving B by it separates.
+  /// Unit vector from A to B, normal to planes `lower` apart. Moving B along it separates.
   Vec3<double> normal = Vec3<double>::Zero();
-  int supports = 0;  ///< of the difference B - A: each is one of A and one of B
+  int supports = 0;  ///< of B - A: each takes one of A, one of B
   /// Set if the limit of support points was reached: the bounds hold, but are not within the
   /// tolerance.
   bool is_exhausted = false;
-  /// True if the depth of overlapping cores has one direction, proven. Else nothing is known.
+  /// True if it is proven that only one direction gives the depth of overlapping cores. False:
+  /// unknown.
   bool has_one_direction = false;
 
-  /// The search failed: it is unknown if they are apart or overlap, and the distance has no upper
-  /// bound. `value` is no distance then, and there are no points.
+  /// The search failed: whether they overlap is unknown, and the distance has no upper bound.
+  /// `value` is no distance then, and there are no points.
   bool is_unknown() const {
     return status == SignedStatus::undecided && !(upper < std::numeric_limits<double>::infinity());
   }
@@ -63,37 +63,35 @@ struct SignedDistance {
 struct SignedDistanceOptions {
   /// Largest gap between the bounds, relative to the sum of the shapes' sizes.
   double tolerance = 1e-10;
-  /// Beyond this distance it is enough to know that they are: value is `lower` then, and upper may
-  /// be infinite.
+  /// If further apart, a lower bound suffices: upper may be infinite, and value is `lower` then.
   double at_most = std::numeric_limits<double>::infinity();
-  /// Computes only if they overlap: not the depth, and lower is -infinity or a bound found in
-  /// passing.
+  /// Decides only whether they overlap: no depth; lower is -infinity or a bound found in passing.
   bool only_sign = false;
-  /// Limit of support points for branch and bound, the last resort (some tens more are used in the
-  /// end to find the points of contact). No number suffices for ten digits on a body whose
-  /// directions are all equally good: a ball known by its support mapping only, around a point.
+  /// Limit of support points for branch and bound, the last resort (some tens more find the points
+  /// of contact). No limit gives ten digits where all directions are equally good: a point within a
+  /// ball known by its support mapping only.
   int max_supports = 50000;
-  /// Finds the normal of curved shapes, too, to some 1e-9, and the points with it: for
-  /// derivatives. Costs less than a tolerance fine enough for that.
+  /// Finds the normal and points of curved shapes, too, to about 1e-9, for derivatives. Cheaper
+  /// than an equally fine tolerance.
   bool is_for_derivatives = false;
 };
 
 /// The poses are rigid. Their rounding, and that of all numbers here, is allowed for by 16 epsilons
-/// of the shapes' sizes and of the distance of their middles, wherever the two are; shapes that are
-/// far from the origin of their own frames, and turned there, add what that turn was rounded to.
+/// of the shapes' sizes and of the distance of their middles, wherever the two are. A shape
+/// turned, and far from the origin, in its own frame adds the rounding of that turn.
 SignedDistance signed_distance(const ContactShape& a, const Affine<double>& pose_a,
                                const ContactShape& b, const Affine<double>& pose_b,
                                const SignedDistanceOptions& options = {});
 
 /// Begins with what the last query on this pair left in `memory`, and leaves there what it ended
-/// with: of bodies that move little from one query to the next it is faster, of hulls twice
-/// (docs/contact.md). The bounds hold whatever is in it; the answer's last digits depend on it.
+/// with: faster for bodies that move little between queries, about twice for hulls. The bounds hold
+/// whatever is in it; the result's last digits depend on it.
 SignedDistance signed_distance(const ContactShape& a, const Affine<double>& pose_a,
                                const ContactShape& b, const Affine<double>& pose_b,
                                PairMemory& memory, const SignedDistanceOptions& options = {});
 
-/// Bodies that have been brought near: `linear_a` and `linear_b` turn to the axes along which
-/// `between` leads from A's middle to B's. Points are seen from A's middle. There may be a memory.
+/// For poses without their common offset: `linear_a`, `linear_b` turn to the axes of `between`,
+/// which leads from A's middle to B's. Points are relative to A's middle. `memory` may be null.
 SignedDistance signed_distance(const ContactShape& a, const Mat3<double>& linear_a,
                                const ContactShape& b, const Mat3<double>& linear_b,
                                const Between& between, const SignedDistanceOptions& options,

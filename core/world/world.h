@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A world of instances: finds the first one that a ray hits, by the BVH and the solvers.
+// A world of instances: finds the first that a ray hits, using the BVH and solvers.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ struct BlockHits {
 class HitReceiver {
  public:
   virtual ~HitReceiver() = default;
-  /// `exhausted`: a solver failed to converge at any instance.
+  /// `exhausted`: a solver failed to converge at an instance.
   virtual void take(std::size_t ray, const WorldHit& hit, bool exhausted) = 0;
   /// Results of the rays `first` + i for all bits i of `which`.
   virtual void take(std::size_t first, std::uint64_t which, const BlockHits& hits) = 0;
@@ -44,8 +44,8 @@ class World {
                  BvhBuild build = BvhBuild::quality);
 
   /// Returns the first instance that the ray hits with 0 <= t <= t_max; of several at the same t,
-  /// the one with the least index. Ignores `skip`, since a ray that leaves a convex shape never
-  /// hits it again; of a mesh, ignores only the part nearest to the ray's origin (leaving_mesh). A
+  /// the one with the least index. Ignores `skip`, the instance that the ray leaves: if convex, it
+  /// is not hit again; of a mesh, only the part nearest to the origin is ignored (leaving_mesh). A
   /// cast that does not converge is neither a hit nor a miss; check `counts.exhausted`.
   WorldHit closest_hit(const Ray<double>& ray, QueryCounts& counts,
                        std::uint32_t skip = no_instance, double time = 0) const {
@@ -60,7 +60,7 @@ class World {
   }
   bool occluded(const WorldRay& ray, QueryCounts& counts) const;
 
-  /// Finds the first hits of any number of rays; faster for many rays, and for similar neighbours.
+  /// Finds the first hits of any number of rays; faster if many, and if neighbours are similar.
   void closest_hits(const RaySpan& rays, HitReceiver& to, QueryCounts& counts) const;
   /// hits[i] is the result of rays[i].
   void closest_hits(std::span<const WorldRay> rays, std::span<WorldHit> hits,
@@ -73,8 +73,8 @@ class World {
   }
 
   /// Moves all instances: the i-th to pose_of(i), and from there along movement_of(i), if given,
-  /// while time goes from 0 to 1. Several threads call both functions at once. Refits the BVH, or
-  /// rebuilds it if rays would visit 1.5 times as many nodes.
+  /// while time goes from 0 to 1. Both functions are called from several threads at once. Refits
+  /// the BVH, or rebuilds it if it has become 1.5 times as costly since it was built.
   void pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
                 const std::function<Movement<double>(std::size_t)>& movement_of = {});
 
@@ -87,7 +87,7 @@ class World {
   const Bvh& bvh() const { return bvh_; }
   const CastOptions<double>& options() const { return options_; }
 
-  /// Memory of instances and BVH, without the points of hulls, which shapes share.
+  /// Memory of instances and BVH, without the hulls' points, which are shared.
   std::size_t bytes() const { return bvh_.bytes() + mesh_boxes_.bytes() + instances_.bytes(); }
 
  private:
@@ -107,8 +107,8 @@ class World {
   bool closer_half_space(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
   bool closer_mesh(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
   bool blocked_by_shapeless(const WorldRay& ray, QueryCounts& counts) const;
-  /// Finds the closest half-space or mesh for many rays, mesh by mesh. Sets is_exhausted[i] to 1 if
-  /// a cast of rays[i] does not converge.
+  /// Finds the closest shapeless instance (half-space or mesh) for many rays, mesh by mesh. Sets
+  /// is_exhausted[i] to 1 if a cast of rays[i] does not converge.
   void closest_shapeless(const RaySpan& rays, std::span<WorldHit> closest,
                          std::span<std::uint8_t> is_exhausted, QueryCounts& counts) const;
   /// Sets met[i] to 1 or 0.
@@ -118,7 +118,7 @@ class World {
   /// Returns false, without results, if the rays do not form a block.
   bool answer_block(const RaySpan& rays, std::size_t first, HitReceiver& to,
                     QueryCounts& counts) const;
-  /// Casts at most rays_of_stream incoherent rays, which are the caller's from `first` on.
+  /// Casts at most rays_of_stream incoherent rays, numbered from `first` by the caller.
   void answer_stream(const RaySpan& rays, std::size_t first, HitReceiver& to,
                      QueryCounts& counts) const;
   void occluded_in_stream(const RaySpan& rays, std::span<std::uint8_t> met,
@@ -133,7 +133,7 @@ class World {
   Bvh bvh_;         ///< of instances with shapes
   Bvh mesh_boxes_;  ///< of meshes, by their order
   BvhBuild build_ = BvhBuild::quality;
-  bool has_repeated_ = false;   ///< some instances are not in the BVH
+  bool has_repeated_ = false;   ///< duplicates are left out of the BVH
   double visits_as_built_ = 0;  ///< expected per ray; 0: not known yet
   CastOptions<double> options_;
   bool is_default_ = true;  ///< the options allow packets and closed forms

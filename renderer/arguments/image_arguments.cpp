@@ -128,7 +128,7 @@ Option add_scene_option(const Verb& verb, std::string& scene) {
 
 void add_camera_file_option(const Verb& verb, std::string& camera_file) {
   verb.add_option("--camera-file", camera_file,
-                  "Lens and size of a calibrated camera (JSON), at the scene's camera")
+                  "Calibrated lens and size (JSON) for the scene's camera")
       .reads_file();
 }
 

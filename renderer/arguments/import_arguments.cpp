@@ -16,7 +16,7 @@ void add_other_files(const Verb& verb, ImportOptions& options) {
   // reported.
   verb.add_option("others", options.others,
                   "More files for the same scene\n"
-                  "Camera and lights: first scene file; joint values: first file")
+                  "Camera and lights are the first scene's; joint values set the first file")
       .reads_file();
 }
 
@@ -42,7 +42,7 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
                             : name == "components" ? MeshSplit::components
                                                    : MeshSplit::none;
           },
-          "Split of a mesh into several hulls:\nnone: one body (default)\n"
+          "How to split a mesh into hulls:\nnone: one body (default)\n"
           "groups: one per named part of the file\ncomponents: one per connected part")
       .one_of({"none", "groups", "components"})
       .group(group);
@@ -51,7 +51,7 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
           [&options](const std::string& name) {
             options.meshes = name == "exact" ? MeshChoice::exact : MeshChoice::hull;
           },
-          "Mesh files of robots; default exact (--split and MJCF contact: hull):\n"
+          "Mesh files of robots (default exact; hull with --split and for MJCF contact):\n"
           "exact: triangles\nhull: convex hulls")
       .one_of({"hull", "exact"})
       .group(group);
@@ -66,7 +66,7 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
   if (rows)
     verb.add_option("--joints", options.joint_rows,
                     "Joint values: CSV (names, then values) or JSON rows with \"time\" (s)\n"
-                    "Several rows move the robot; without times at 24 fps")
+                    "Several rows move the robot, at 24 fps if without times")
         .reads_file()
         .group(group);
   verb.add_option("--package-dir,--model-dir", options.package_dirs,
@@ -74,7 +74,8 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
       .takes_folder()
       .one_value_each()
       .group(group);
-  verb.add_flag("--lenient", options.lenient, "Skip invalid shapes and materials; info lists them")
+  verb.add_flag("--lenient", options.lenient,
+                "Skip invalid shapes, materials; minkray info lists them")
       .group(group);
   verb.add_flag("--skip-missing-meshes", options.skip_missing_meshes,
                 "Skip missing mesh files; info reports how many")

@@ -24,9 +24,10 @@ std::vector<std::string> flags_of(const VerbDescription& verb) {
   return flags;
 }
 
-/// True if the value is a file or a folder.
+/// True if the value is a file or a folder; a scan pattern may be one.
 bool takes_file(const OptionDescription& option) {
-  return option.value == "FILE" || option.value == "OUTPUT" || option.value == "FOLDER";
+  return option.value == "FILE" || option.value == "OUTPUT" || option.value == "FOLDER" ||
+         option.value == "PATTERN";
 }
 
 /// Escapes text for the specifications of zsh's _arguments.

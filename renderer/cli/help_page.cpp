@@ -74,6 +74,7 @@ std::string help_page(const VerbDescription& verb) {
   }
   page += "\nExamples:\n";
   for (const std::string& example : verb.examples) page += "  " + example + "\n";
+  if (!verb.exit_codes.empty()) page += "\n" + verb.exit_codes + "\n";
   return page;
 }
 

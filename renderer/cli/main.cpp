@@ -61,8 +61,9 @@ ExitCode run(int argc, char** argv) {
     return ExitCode::done;
   }
   parser.set_footer(
-      "Exit codes: 0 done, 1 a comparison or certificate failed, 2 wrong usage,\n"
-      "3 bad scene or input, 4 could not write. Results are on stdout, all else on\nstderr.");
+      "Exit codes: 0 done, 1 a comparison or certificate failed, or verify: collides,\n"
+      "2 wrong usage, 3 bad scene or input, 4 could not write, 6 verify: undecided.\n"
+      "Results are on stdout, all else on stderr.");
   ExitCode exit_code = ExitCode::done;
   const std::span<const minkray::VerbHere> here = minkray::verbs_here();
   for (const minkray::VerbRow& verb : minkray::verbs) {

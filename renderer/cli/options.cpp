@@ -261,8 +261,10 @@ OptionDescription describe(const CLI::Option& option) {
 VerbDescription describe(const CLI::App& verb) {
   VerbDescription description{verb.get_name(), verb.get_description(), {}, {}};
   for (const VerbRow& row : minkray::verbs)
-    if (row.name == verb.get_name())
+    if (row.name == verb.get_name()) {
       description.examples.assign(std::begin(row.examples), std::end(row.examples));
+      description.exit_codes = row.exit_codes;
+    }
   for (const CLI::Option* option : verb.get_options(nullptr))
     description.options.push_back(describe(*option));
   return description;

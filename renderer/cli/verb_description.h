@@ -32,6 +32,7 @@ struct VerbDescription {
   std::string doc;
   std::vector<std::string> examples;
   std::vector<OptionDescription> options;  ///< in the order of --help
+  std::string exit_codes = {};             ///< empty: those of minkray --help
 };
 
 }  // namespace minkray

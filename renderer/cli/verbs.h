@@ -18,6 +18,7 @@ struct VerbRow {
   std::string_view doc;
   const char* program;
   std::string_view examples[2];
+  std::string_view exit_codes = {};  ///< line of help, for a command with codes of its own
 };
 
 /// Rows in the order of --help.
@@ -54,7 +55,7 @@ inline constexpr VerbRow verbs[] = {
      {"minkray scan scene.json --pattern spinning:16x360 -o sweep.ply",
       "minkray scan robot.urdf --pinhole camera.json --on head -o depth.png"}},
     {"distance",
-     "Signed distances of two shapes, or of a robot's or scene's pairs, with bounds",
+     "Signed distances of two shapes, or of pairs of bodies in a robot or scene",
      "minkray-tools",
      {"minkray distance a.json b.json",
       "minkray distance robot.urdf world.sdf --joint elbow=1.2 --within 0.1"}},
@@ -64,10 +65,11 @@ inline constexpr VerbRow verbs[] = {
      {"minkray clearance robot.urdf --path path.csv --obstacle cell.json",
       "minkray clearance robot.urdf --path path.csv --srdf robot.srdf --at-least 0.05"}},
     {"verify",
-     "Prove that a planner's motion is free of collisions, also between its rows",
+     "Prove that a planner's motion is free of collisions, also between waypoints",
      "minkray-tools",
      {"minkray verify --robot arm.urdf --scene scene.yaml --trajectory plan.yaml",
-      "minkray verify --robot arm.urdf --trajectory plan.csv -o proof.json"}},
+      "minkray verify --robot arm.urdf --trajectory plan.csv -o proof.json"},
+     "Exit codes: 0 free, 1 collides, 6 undecided; others as in minkray --help"},
     {"field",
      "Show the signed distance from a scene's objects over a plane",
      "minkray-tools",

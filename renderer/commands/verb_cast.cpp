@@ -268,7 +268,7 @@ void add_cast(Parser& parser, ExitCode& exit_code) {
       .one_of(subalgorithm_names())
       .show_default();
   add_tolerance(verb, options->tolerance);
-  verb.add_option("--threads", options->threads, "Threads; 0: one per core")
+  verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")
       .between(0, 1024)
       .show_default();
   verb.add_flag("--trace", options->trace, "Add every iteration to the results");

@@ -176,7 +176,8 @@ void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
                   "spinning:CHANNELSxSTEPS[:LOWEST,HIGHEST[:FROM,TO]] (degrees); " + models +
                       "; or a file: .csv (time, azimuth, zenith), .json (elevations), .mat3x4f")
       .group(heading)
-      .reads_file();
+      .reads_file()
+      .takes("PATTERN");
   verb.add_option("--pinhole", options.pinhole,
                   "A JSON file of a calibrated camera: fx, fy, cx, cy, width, height, distortion")
       .group(heading)
@@ -207,7 +208,7 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .group(heading)
       .takes("MIN,MAX");
   verb.add_option("--noise", options.noise,
-                  "Standard deviations: of ranges, of angles (radians), and of ranges per length")
+                  "Standard deviations: of ranges, of angles (rad); growth of the first per length")
       .group(heading)
       .takes("RANGE[,ANGLE[,PER_LENGTH]]");
   verb.add_option("--dropout", options.scan.dropout, "Probability that a ray returns nothing")
@@ -222,7 +223,9 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .group(heading)
       .between(1, 64)
       .show_default();
-  verb.add_option("--echo", options.order, "Order of echoes")
+  verb.add_option("--echo", options.order,
+                  "Order of echoes:\nfirst: nearest first\nstrongest: greatest intensity first\n"
+                  "last: furthest first")
       .group(heading)
       .one_of(echo_orders)
       .show_default();

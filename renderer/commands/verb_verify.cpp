@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray verify: proves that a planner's motion is free of collisions, also between its rows.
+// minkray verify: proves that a planner's motion is free of collisions, also between waypoints.
 #include <algorithm>
 #include <chrono>
 #include <exception>
@@ -249,7 +249,7 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
   verb.add_option("--robot", inputs.robot, "Robot: " + foreign_formats()).required().reads_file();
   verb.add_option(
           "--trajectory", options->plans,
-          "JointTrajectory, RobotTrajectory or request (YAML, JSON), CSV or NPY; repeatable")
+          "JointTrajectory, RobotTrajectory, MoveIt request (YAML, JSON), CSV, NPY; repeatable")
       .one_value_each()
       .reads_file();
   verb.add_option("-o,--output", options->outputs,
@@ -261,7 +261,7 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
       .one_value_each()
       .reads_file();
   inputs.allowed.add_options(verb);
-  verb.add_option("--state", inputs.state, "SRDF state of joints that the plan does not name")
+  verb.add_option("--state", inputs.state, "SRDF state for joints not named by the plan")
       .takes("NAME");
   verb.add_option("--group", inputs.group,
                   "SRDF group whose joints are the columns of an .npy file")
@@ -280,7 +280,7 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
       .between(1e-9, 1.0)
       .show_default();
   verb.add_option("--budget", options->budget,
-                  "Distance queries per pair and step before a motion is undecided")
+                  "Most distance queries per pair and step (row to row); then undecided")
       .between(std::size_t{1}, std::size_t{1'000'000'000})
       .show_default();
   verb.add_flag("--serve", options->serve,

@@ -36,9 +36,8 @@ inline constexpr std::array data_channels = {
     DataChannelDescription{"albedo", "RGB", "the colour of the surface's material, or 0"},
     DataChannelDescription{"emission", "RGB", "light emitted by the surface, or 0"},
     DataChannelDescription{"thickness", "", "length of the ray inside the object; 0 for a miss"},
-    DataChannelDescription{"uv", "UV",
-                           "longitude and latitude around the object's origin, in turns and half "
-                           "turns (mapping radial); or 0"},
+    DataChannelDescription{
+        "uv", "UV", "a mesh's texture coordinates, else those of texture mapping radial; or 0"},
     DataChannelDescription{"motion", "XY",
                            "motion of the point while the shutter is open, in pixels; or 0"},
     DataChannelDescription{"direct", "RGB",
@@ -54,8 +53,7 @@ inline constexpr std::array data_channels = {
         "Cryptomatte of all objects by name (CryptoObject00.R to 02.A, names in the header)",
         DataChannelDescription::By::samples},
     DataChannelDescription{
-        "status", "",
-        "0 miss, 1 hit, 2 inside, 3 exhausted if any cast did not converge (integer)"},
+        "status", "", "0 miss, 1 hit, 2 inside, 3 exhausted: a cast did not converge (integer)"},
 };
 
 /// The names between commas, or "all". Throws WrongUsage, with the names there are, for any other;

@@ -28,8 +28,7 @@ void RenderArguments::add_to(const Verb& verb) {
   image.samples = 16;
   image.add_to(verb, picture_suffix);
   add_solver_option(verb, image.solver);
-  verb.add_option("--exposure", exposure,
-                  "Exposure in stops (.pfm and .exr keep the scene's light)")
+  verb.add_option("--exposure", exposure, "Exposure in stops (not applied to .pfm and .exr)")
       .show_default();
   std::string kinds = "Rendering method:";
   std::vector<std::string> names;
@@ -55,7 +54,7 @@ void RenderArguments::add_to(const Verb& verb) {
       .between(0.0, 1.0)
       .show_default();
   verb.add_flag("--denoise", denoise, "Denoise (best at few samples per pixel)");
-  verb.add_flag("--half", has_halfs, "Write the colors of .exr with 16-bit floats");
+  verb.add_flag("--half", has_halfs, "Write the colours of .exr with 16-bit floats");
   std::string maps = "Tone mapping of PNG output:";
   for (const ToneMapDescription& map : tone_maps)
     maps += "\n" + std::string(map.name) + ": " + std::string(map.doc);
@@ -92,7 +91,7 @@ void RenderArguments::add_to(const Verb& verb) {
       .between(1, 999999)
       .group(several_machines);
   verb.add_option("--checkpoint", checkpoint_seconds,
-                  "Seconds between checkpoints, next to the first output; 0: none")
+                  "Seconds between checkpoints (next to the first output); 0: none")
       .between(0.0, 1e9)
       .show_default();
   verb.add_flag("--resume", resume, "Resume from the checkpoint, if there is one");
@@ -102,7 +101,7 @@ void RenderArguments::add_to(const Verb& verb) {
       .takes("HOST:PORT");
   verb.add_option("--frames", frames,
                   "Render these frames; #### in -o becomes the frame number\n"
-                  "--resume skips frames listed in the record ####.png.frames")
+                  "--resume skips frames listed in NAME-####.png.frames")
       .takes("A..B");
   verb.add_option("--rate", rate, "Frames per second (fps)").between(1e-6, 1e6).show_default();
   verb.add_option("--contact-sheet", contact_sheet, "Picture with thumbnails of all --frames")

@@ -25,7 +25,7 @@ inline constexpr std::array integrators = {
     IntegratorDescription{IntegratorKind::direct, "direct",
                           "direct light from lights and emissive objects"},
     IntegratorDescription{IntegratorKind::ambient, "ambient",
-                          "direct light, diffuse --bounces, then ambient occlusion"},
+                          "direct and diffuse light (--bounces), then ambient occlusion"},
     IntegratorDescription{IntegratorKind::normals, "normals", "surface normals as colours"},
 };
 
