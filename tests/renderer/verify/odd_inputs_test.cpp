@@ -68,7 +68,8 @@ TEST_F(OddInputs, of_plans_are_errors) {
   expect_begin(with_plan("goal_constraints: [{joint_constraints: [{joint_name: turn, position: 1}, "
                          "{joint_name: turn, position: 2}]}]\n"),
                "3 odd.yaml: /goal_constraints/0/joint_constraints/1/joint_name: duplicate");
-  expect_begin(with_plan("time,turn\n1,0\n0,1\n", "odd.csv"), "3 odd.csv: line 3: times must increase");
+  expect_begin(with_plan("time,turn\n1,0\n0,1\n", "odd.csv"),
+               "3 odd.csv: line 3: times must increase");
 }
 
 /// One row is a pose, and rows at one time are a jump whose whole way counts.
