@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Penetration depth of overlapping cores by a polytope within C that grows around the origin (G.
 // van den Bergen, "Proximity Queries and Penetration Depth Computation on 3D Game Objects", 2001).
-// The face nearest to the origin is replaced by the support point beyond it, until there is none.
+// Replaces the face nearest to the origin by the support point beyond it, until none is beyond.
 // Exact for polytopes.
 #pragma once
 

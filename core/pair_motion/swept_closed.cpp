@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/pair_motion/swept_closed.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/pair/closed_pairs.h"
 
 namespace minkray {
@@ -19,6 +22,7 @@ class ClosedSweep {
     radii_ = pair.a.radius + pair.b.radius;
     rounding_ = pair.rounding();
     speed_ = velocity.norm();
+    latest_ = std::min(t_max, (pair.x.norm() + pair.size() + radii_) / speed_);
   }
 
   SweptTime run() {
@@ -56,7 +60,7 @@ class ClosedSweep {
       if (gap > 0 && guesses < most_guesses) {
         ++guesses;
         const double later = guess_(found, at, radii_);
-        if (later > t && later <= t_max_) t = later;
+        if (later > t && later <= latest_) t = later;
       }
     }
     return result_;
@@ -89,6 +93,7 @@ class ClosedSweep {
   const DistanceAt& distance_at_;
   const Guess& guess_;
   double radius_of_a_, radii_, rounding_, speed_;
+  double latest_;  ///< no contact is later: the middles would be too far apart, and places coarse
   SweptTime result_;
 };
 
