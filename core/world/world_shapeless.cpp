@@ -87,12 +87,10 @@ bool World::closer_half_space(const WorldRay& ray, WorldHit& closest, QueryCount
 }
 
 bool World::closer_mesh(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const {
-  SlabRay slabs(ray.ray);
-  if (closest.found()) slabs.numbers.t_max = slabs.limit(closest.cast.t());
   bool found = false;
   auto on_mesh = [&](std::uint32_t index) {
     const PosedMesh& mesh = instances_.meshes()[index];
-    if (!instances_.is_shown_to(mesh.instance, ray.kinds)) return false;
+    if (!instances_.is_shown_to(mesh.instance, ray.kinds)) return;
     const double most =
         closest.found() ? closest.cast.t() : std::numeric_limits<double>::infinity();
     PartCounts parts;
@@ -101,13 +99,21 @@ bool World::closer_mesh(const WorldRay& ray, WorldHit& closest, QueryCounts& cou
                                        instances_.loss_of_seen_by(mesh.instance, ray.ray), parts);
     counts.add_parts(parts);
     counts.exhausted += cast.status == Status::exhausted ? 1 : 0;
-    if (!cast.found() || !closest.yields_to(mesh.instance, cast.t())) return false;
+    if (!cast.found() || !closest.yields_to(mesh.instance, cast.t())) return;
     closest = {mesh.instance, instances_.turned(mesh.instance, cast, ray.time), part};
-    slabs.numbers.t_max = slabs.limit(cast.t());
     found = true;
-    return false;
   };
-  counts.nodes += traverse(mesh_boxes_, slabs, on_mesh);
+  if (instances_.meshes().size() == 1) {  // its own walk begins with its box
+    on_mesh(0);
+    return found;
+  }
+  SlabRay slabs(ray.ray);
+  if (closest.found()) slabs.numbers.t_max = slabs.limit(closest.cast.t());
+  counts.nodes += traverse(mesh_boxes_, slabs, [&](std::uint32_t index) {
+    on_mesh(index);
+    if (closest.found()) slabs.numbers.t_max = slabs.limit(closest.cast.t());
+    return false;
+  });
   return found;
 }
 
@@ -131,7 +137,10 @@ bool World::blocked_by_shapeless(const WorldRay& ray, QueryCounts& counts) const
     counts.add_parts(parts);
     return is_blocked;
   };
-  counts.nodes += traverse(mesh_boxes_, SlabRay(ray.ray), on_mesh);
+  if (instances_.meshes().size() == 1)
+    on_mesh(0);
+  else
+    counts.nodes += traverse(mesh_boxes_, SlabRay(ray.ray), on_mesh);
   return is_blocked;
 }
 
