@@ -20,7 +20,7 @@ FlatPart of_box(const ShapeCore& core, const Vec3<double>& d, double tilt) {
 }
 
 FlatPart of_disks(const ShapeCore& core, const Vec3<double>& d, double tilt) {
-  const double across = std::hypot(d.x(), d.y());
+  const double across = std::sqrt(d.x() * d.x() + d.y() * d.y());
   const bool above = 2 * core.size.z() * d.z() + (core.size.y() - core.size.x()) * across > 0;
   if (across <= tilt) {
     if ((above ? core.size.y() : core.size.x()) > 0) return {2};
@@ -28,7 +28,7 @@ FlatPart of_disks(const ShapeCore& core, const Vec3<double>& d, double tilt) {
   }
   // The line on the side from one rim to the other.
   const double rise = 2 * core.size.z(), widening = core.size.y() - core.size.x();
-  const double length = std::hypot(rise, widening);
+  const double length = widening == 0 ? rise : std::hypot(rise, widening);
   if (!(length > 0) || std::abs(rise * d.z() + widening * across) > tilt * length) return {};
   const double k = widening / (across * length);
   return {1, {k * d.x(), k * d.y(), rise / length}, length};

@@ -37,6 +37,12 @@ bool is_slow(const ShapeCore& core) {
   return core.kind == CoreKind::hull || core.kind == CoreKind::other;
 }
 
+/// A direction of the world in the frame of the shape's core.
+Vec3<double> in_core(const ContactShape& shape, const Mat3<double>& linear, const Vec3<double>& d) {
+  const Vec3<double> own = linear.transpose() * d;
+  return shape.is_turned() ? Vec3<double>(shape.turn().transpose() * own) : own;
+}
+
 /// True if the bodies may touch each other in more than a point when they are moved together.
 bool have_many_points(const ContactShape& a, const Mat3<double>& linear_a, const ContactShape& b,
                       const Mat3<double>& linear_b, const Vec3<double>& normal, double interval,
@@ -45,14 +51,13 @@ bool have_many_points(const ContactShape& a, const Mat3<double>& linear_a, const
   if (is_slow(a.core()) && !is_slow(b.core()))
     return have_many_points(b, linear_b, a, linear_a, -normal, interval, length);
   const double tilt = tilt_of(interval, length);
-  const Mat3<double> turn_a = turn_in_world(a, linear_a);
-  const FlatPart of_a = flat_part(a.core(), turn_a.transpose() * normal, tilt);
+  const FlatPart of_a = flat_part(a.core(), in_core(a, linear_a, normal), tilt);
   if (of_a.dimension == 0) [[likely]]
     return false;
-  const Mat3<double> turn_b = turn_in_world(b, linear_b);
-  const FlatPart of_b = flat_part(b.core(), turn_b.transpose() * -normal, tilt);
+  const FlatPart of_b = flat_part(b.core(), in_core(b, linear_b, -normal), tilt);
   if (of_b.dimension == 0) return false;
   if (of_a.dimension == 2 || of_b.dimension == 2) return true;
+  const Mat3<double> turn_a = turn_in_world(a, linear_a), turn_b = turn_in_world(b, linear_b);
   // Two edges have one common point, unless they are as good as parallel: at the end of the shorter
   // one the gap has grown by less than the bounds are apart.
   const double sine = (turn_a * of_a.along).cross(turn_b * of_b.along).norm();
@@ -125,7 +130,8 @@ CoreContact contact_of(const CoresInWorld& cores, const Vec3<double>& middle,
 
 PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a,
                              const ContactShape& b, const Affine<double>& pose_b,
-                             const SignedDistance& found, PairDerivativeError* error) {
+                             const SignedDistance& found, PairDerivativeError* error,
+                             const Drift& drift) {
   const double interval = found.upper - found.lower;
   if (error) *error = {};
   if (found.is_unknown() || !std::isfinite(interval)) return unknown(true);
@@ -152,26 +158,31 @@ PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a
   }
   if (error && !derivative.is_ridge) {
     depth_tilt += (contact.normal - found.normal).norm();
-    *error = error_of(cores, contact, found, depth_tilt, origin_a, origin_b);
+    *error = error_of(cores, contact, found, depth_tilt, origin_a, origin_b, drift);
   }
   return derivative;
 }
 
 PairDerivative finest_derivative_of(const ContactShape& a, const Affine<double>& pose_a,
-                                    const ContactShape& b, const Affine<double>& pose_b) {
+                                    const ContactShape& b, const Affine<double>& pose_b,
+                                    PairDerivativeError* error) {
   return derivative_of(a, pose_a, b, pose_b,
-                       signed_distance(a, pose_a, b, pose_b, for_derivatives()));
+                       signed_distance(a, pose_a, b, pose_b, for_derivatives()), error);
 }
 
 PairDerivative derivative_at_half_space(const Vec3<double>& origin, const ContactShape& b,
-                                        const Affine<double>& pose_b, const SignedDistance& found) {
+                                        const Affine<double>& pose_b, const SignedDistance& found,
+                                        PairDerivativeError* error, const Drift& drift) {
+  if (error) *error = {};
   if (found.is_unknown()) return unknown(true);
   PairDerivative derivative{of_point(-found.normal, found.point_a - origin),
                             of_point(found.normal, found.point_b - pose_b.translation)};
   // The normal is known to rounding.
   constexpr double tilt = 64 * std::numeric_limits<double>::epsilon();
-  const Vec3<double> down = turn_in_world(b, pose_b.linear).transpose() * -found.normal;
+  const Vec3<double> down = in_core(b, pose_b.linear, -found.normal);
   derivative.is_ridge = flat_part(b.core(), down, tilt).dimension > 0;
+  if (error && !derivative.is_ridge)
+    *error = error_at_half_space(b.core(), down, tilt, found, origin, pose_b.translation, drift);
   return derivative;
 }
 

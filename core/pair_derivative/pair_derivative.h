@@ -35,18 +35,23 @@ inline SignedDistanceOptions for_derivatives(SignedDistanceOptions options = {})
 }
 
 /// `found` is the result on this pair, computed with for_derivatives(), with both of its bounds;
-/// else nothing is known: NaN, and a ridge. Fills `error`, if there is one.
+/// else nothing is known: NaN, and a ridge. Fills `error`, if there is one, for all poses that are
+/// no further than `drift`.
 PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a,
                              const ContactShape& b, const Affine<double>& pose_b,
-                             const SignedDistance& found, PairDerivativeError* error = nullptr);
+                             const SignedDistance& found, PairDerivativeError* error = nullptr,
+                             const Drift& drift = {});
 
 /// Computes the signed distance, too, as finely as that needs.
 PairDerivative finest_derivative_of(const ContactShape& a, const Affine<double>& pose_a,
-                                    const ContactShape& b, const Affine<double>& pose_b);
+                                    const ContactShape& b, const Affine<double>& pose_b,
+                                    PairDerivativeError* error = nullptr);
 
 /// B is the shape passed to distance_to_half_space(). A's origin is `origin`.
 PairDerivative derivative_at_half_space(const Vec3<double>& origin, const ContactShape& b,
-                                        const Affine<double>& pose_b, const SignedDistance& found);
+                                        const Affine<double>& pose_b, const SignedDistance& found,
+                                        PairDerivativeError* error = nullptr,
+                                        const Drift& drift = {});
 
 /// Takes t_lo by a twist of each body at time 0. Zero where they begin inside each other; NaN where
 /// there is no contact.

@@ -164,4 +164,22 @@ PairDerivativeError error_of(const CoresInWorld& cores, const CoreContact& conta
   return error;
 }
 
+PairDerivativeError error_at_half_space(const ShapeCore& core_b, const Vec3<double>& down,
+                                        double tilt, const SignedDistance& found,
+                                        const Vec3<double>& origin_a, const Vec3<double>& origin_b,
+                                        const Drift& drift) {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  tilt += drift.turn;
+  // The radius is along the normal, and adds nothing to an arm across it.
+  const double slide = slide_of(core_b, down, tilt).any;
+  const double rounding =
+      core_rounding * core_b.ball +
+      16 * epsilon *
+          (found.point_a.norm() + found.point_b.norm() + origin_a.norm() + origin_b.norm());
+  const auto of_turn = [&](const Vec3<double>& arm) {
+    return slide + rounding + drift.way + tilt * arm.norm();
+  };
+  return {{tilt, of_turn(found.point_a - origin_a)}, {tilt, of_turn(found.point_b - origin_b)}};
+}
+
 }  // namespace minkray

@@ -32,4 +32,11 @@ PairDerivativeError error_of(const CoresInWorld& cores, const CoreContact& conta
                              const Vec3<double>& origin_a, const Vec3<double>& origin_b,
                              const Drift& drift = {});
 
+/// A is a half-space whose normal may lean by `tilt`; `down` is the opposite of it in the frame of
+/// B's core. The bodies' origins are in the frame of the points that were found.
+PairDerivativeError error_at_half_space(const ShapeCore& core_b, const Vec3<double>& down,
+                                        double tilt, const SignedDistance& found,
+                                        const Vec3<double>& origin_a, const Vec3<double>& origin_b,
+                                        const Drift& drift = {});
+
 }  // namespace minkray

@@ -13,6 +13,24 @@ bool has_parts(const PartPair& parts, const PartsBody& a, const PartsBody& b) {
   return (!a.mesh() || parts.a != no_part) && (!b.mesh() || parts.b != no_part);
 }
 
+/// True if a vertex other than the lowest one may be as low. `found` is of the posed mesh and a
+/// half-space.
+bool has_other_lowest(const TriangleMesh& mesh, const Affine<double>& pose,
+                      const SignedDistance& found, const Drift& drift) {
+  const Vec3<double> up = pose.linear.transpose() * found.normal,
+                     lowest = pose.linear.transpose() * (found.point_b - pose.translation);
+  constexpr double tilt = 1e-12, same = 1e-12;  // of directions; of the mesh's size
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  const double near = same * mesh.reach() + rounding * pose.translation.norm();
+  for (const Corners& corners : mesh.triangles())
+    for (const std::uint32_t corner : corners) {
+      const Vec3<double> to = mesh.vertices()[corner] - lowest;
+      const double length = to.norm();
+      if (length > near && up.dot(to) <= (tilt + drift.turn) * length + near) return true;
+    }
+  return false;
+}
+
 }  // namespace
 
 ContactManifold contact_manifold(const PartsBody& a, const Affine<double>& pose_a,
@@ -36,6 +54,19 @@ PairDerivative derivative_of(const PartsBody& a, const Affine<double>& pose_a, c
   }
   return finest_derivative_of(OnePart(a, parts.a).shape(), pose_a, OnePart(b, parts.b).shape(),
                               pose_b);
+}
+
+PairDerivative derivative_at_half_space(const Vec3<double>& origin, const PartsBody& b,
+                                        const Affine<double>& pose_b, const SignedDistance& found,
+                                        PairDerivativeError* error, const Drift& drift) {
+  if (b.shape()) return derivative_at_half_space(origin, *b.shape(), pose_b, found, error, drift);
+  // A half-space sees the lowest vertex only.
+  static const ContactShape point{Shape<double>(Point<double>())};
+  PairDerivative derivative = derivative_at_half_space(origin, point, pose_b, found, error, drift);
+  if (derivative.is_ridge) return derivative;
+  derivative.is_ridge = has_other_lowest(*b.mesh(), pose_b, found, drift);
+  if (error && derivative.is_ridge) *error = {};
+  return derivative;
 }
 
 PairDerivative derivative_of(const PartsBody& a, const RigidMotion& motion_a, const PartsBody& b,

@@ -18,6 +18,11 @@ ContactManifold contact_manifold(const PartsBody& a, const Affine<double>& pose_
 /// and marked as a ridge.
 PairDerivative derivative_of(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
                              const Affine<double>& pose_b);
+/// Same as the one for shapes; a mesh is on a ridge if several vertices are lowest.
+PairDerivative derivative_at_half_space(const Vec3<double>& origin, const PartsBody& b,
+                                        const Affine<double>& pose_b, const SignedDistance& found,
+                                        PairDerivativeError* error = nullptr,
+                                        const Drift& drift = {});
 /// Derivative of the time of impact.
 PairDerivative derivative_of(const PartsBody& a, const RigidMotion& motion_a, const PartsBody& b,
                              const RigidMotion& motion_b, double t_max);

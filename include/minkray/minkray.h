@@ -948,7 +948,7 @@ class Scene {
   /// its row: as many numbers per step as a row has. See minkray_scene_clearance_derivatives.
   void clearance_derivatives(const Group& robot, View<const double> path, std::size_t rows,
                              View<Clearance> steps, View<double> jac,
-                             View<std::uint8_t> is_ridge = {}) const;
+                             View<std::uint8_t> is_ridge = {}, View<double> jac_error = {}) const;
 
   Proof prove(const Ray& ray, const Hit& hit) const {
     Proof proof;

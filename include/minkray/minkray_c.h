@@ -512,6 +512,9 @@ typedef struct minkray_clearance_options {
   double tolerance;       /* largest gap of the bounds, relative to the clearance; 0: 0.01 */
   int32_t only_obstacles; /* 1: obstacles only, no self-collision */
   int32_t threads;        /* 0: one per core */
+  /* For minkray_scene_clearance_derivatives: receives bounds of the error of each number of `jac`.
+   * Read if `size` includes it; may be NULL. */
+  double* jac_error;
 } minkray_clearance_options;
 
 /* The least signed distance between the robot and the objects around it, and between its links that

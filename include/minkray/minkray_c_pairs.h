@@ -186,9 +186,14 @@ typedef struct minkray_near_options {
   double tolerance;    /* as in minkray_distance_options */
   int32_t derivatives; /* 1: add derivatives */
   uint32_t mask;       /* for given shapes and points: categories to test; 0: all */
-  /* For minkray_scene_time_of_impact: receives bounds of the length of each derivative's error, two
-   * per shape, as in minkray_impact_arrays. Read if `size` includes it; may be NULL. */
+  /* Receives bounds of the length of each derivative's error, by velocity and by angular velocity:
+   * two numbers per shape for minkray_scene_time_of_impact; four per pair, a and then b, for
+   * minkray_scene_nearest and minkray_scene_distance_to. As in minkray_distance_arrays; infinite
+   * for meshes, except above half-spaces. Read if `size` includes it; may be NULL. */
   double* jac_error;
+  /* For minkray_scene_distances: points to such bounds, four per pair, while `take` runs. Read if
+   * `size` includes it; may be NULL. */
+  const double** jac_errors;
 } minkray_near_options;
 
 /* Receives all pairs at once, in the order of their numbers, on the calling thread. The pairs are
@@ -269,7 +274,8 @@ MINKRAY_API int minkray_scene_ray_derivatives(minkray_scene scene, const minkray
  * values at `row`. Quaternions have length 1 between rows, and count as given at a row. Joints that
  * mimic others have zeros. All are zero without other objects. `is_ridge` is 1 where the derivative
  * may be ambiguous, or another pair is as near at `row`. Each of `steps`, `jac` and `is_ridge` may
- * be NULL. */
+ * be NULL. Bounds of the error (`jac_error` of the options) hold at the joint values at `row`, as
+ * rounded; they are infinite on ridges and for meshes. */
 MINKRAY_API int minkray_scene_clearance_derivatives(minkray_scene scene, uint32_t group,
                                                     const double* path, size_t rows, size_t numbers,
                                                     const minkray_clearance_options* options,

@@ -179,18 +179,29 @@ struct ScenePair {
 static_assert(sizeof(ScenePair) == sizeof(minkray_scene_pair) &&
               offsetof(ScenePair, object_a) == offsetof(minkray_scene_pair, object_a));
 
+/// Bounds of the lengths of a pair's derivatives' errors.
+struct PairDerivativeError {
+  DerivativeError a, b;
+};
+
 /// Pairs of a scene, which it owns. (Without std::vector, which is longer than all of minkray.h.)
 class ScenePairs {
  public:
   ScenePairs() = default;
   explicit ScenePairs(std::size_t size)
       : pairs_(size ? new ScenePair[size] : nullptr), size_(size) {}
+  ScenePairs(std::size_t size, bool with_errors) : ScenePairs(size) {
+    if (with_errors && size) errors_ = new PairDerivativeError[size];
+  }
   ScenePairs(ScenePairs&& from) noexcept { swap(from); }
   ScenePairs& operator=(ScenePairs&& from) noexcept {
     swap(from);
     return *this;
   }
-  ~ScenePairs() { delete[] pairs_; }
+  ~ScenePairs() {
+    delete[] pairs_;
+    delete[] errors_;
+  }
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
@@ -204,13 +215,18 @@ class ScenePairs {
   const ScenePair& operator[](std::size_t i) const { return pairs_[i]; }
   const ScenePair& front() const { return pairs_[0]; }
   const ScenePair& back() const { return pairs_[size_ - 1]; }
+  /// One per pair if NearOptions::derivative_errors asks for them, else none.
+  View<PairDerivativeError> errors() { return {errors_, errors_ ? size_ : 0}; }
+  View<const PairDerivativeError> errors() const { return {errors_, errors_ ? size_ : 0}; }
 
  private:
   void swap(ScenePairs& other) noexcept {
     std::swap(pairs_, other.pairs_);
+    std::swap(errors_, other.errors_);
     std::swap(size_, other.size_);
   }
   ScenePair* pairs_ = nullptr;
+  PairDerivativeError* errors_ = nullptr;
   std::size_t size_ = 0;
 };
 
@@ -231,39 +247,50 @@ struct NearOptions {
   bool derivatives = false;           ///< add derivatives
   std::uint32_t mask = 0;             ///< for given shapes and points: categories to test; 0: all
   View<DerivativeError> errors = {};  ///< of the derivatives of times of impact: one per shape
+  bool derivative_errors = false;     ///< fill ScenePairs::errors()
+  View<PairDerivativeError> pair_errors = {};  ///< for distance_to: one per shape
   Options how = {};
 };
 
 namespace detail {
 inline minkray_near_options plain(const NearOptions& options) {
-  return {sizeof(minkray_near_options), options.within, options.tolerance,
-          options.derivatives ? 1 : 0,  options.mask,   nullptr};
+  return {sizeof(minkray_near_options),
+          options.within,
+          options.tolerance,
+          options.derivatives ? 1 : 0,
+          options.mask,
+          nullptr,
+          nullptr};
 }
 
 /// Keeps the pairs from minkray_scene_distances; `no_room`: out of memory.
 struct TakenPairs {
   ScenePairs pairs;
+  const double* errors = nullptr;  ///< during the call
   bool no_room = false;
 
   static int take(void* user, const minkray_scene_pair* pairs, std::size_t count) {
     auto& taken = *static_cast<TakenPairs*>(user);
     try {
-      taken.pairs = ScenePairs(count);
+      taken.pairs = ScenePairs(count, taken.errors != nullptr);
     } catch (const std::bad_alloc&) {
       taken.no_room = true;
       return 1;
     }
     const auto* const first = reinterpret_cast<const ScenePair*>(pairs);
     for (std::size_t i = 0; i < count; ++i) taken.pairs[i] = first[i];
+    const auto* const errors = reinterpret_cast<const PairDerivativeError*>(taken.errors);
+    for (std::size_t i = 0; errors && i < count; ++i) taken.pairs.errors()[i] = errors[i];
     return 0;
   }
 };
 
 inline ScenePairs distances(minkray_scene scene, View<const ObjectPair> pairs,
                             const NearOptions& options) {
-  const minkray_near_options asked = plain(options);
+  minkray_near_options asked = plain(options);
   const minkray_options how = plain(options.how);
   TakenPairs taken;
+  if (options.derivative_errors) asked.jac_errors = &taken.errors;
   const auto* const numbers =
       pairs.size() > 0 ? reinterpret_cast<const std::uint32_t*>(pairs.data()) : nullptr;
   const int status = minkray_scene_distances(scene, numbers, pairs.size(), &asked,
@@ -292,9 +319,10 @@ inline ScenePairs Scene::distances(View<const ObjectPair> pairs) const {
 
 inline ScenePairs Scene::nearest(View<const Vec3> points, std::size_t k,
                                  const NearOptions& options) const {
-  const minkray_near_options asked = detail::plain(options);
+  minkray_near_options asked = detail::plain(options);
   const minkray_options how = detail::plain(options.how);
-  ScenePairs found(points.size() * k);
+  ScenePairs found(points.size() * k, options.derivative_errors);
+  if (found.errors().size() > 0) asked.jac_error = reinterpret_cast<double*>(found.errors().data());
   detail::check(minkray_scene_nearest(handle_, reinterpret_cast<const double(*)[3]>(points.data()),
                                       points.size(), k, &asked,
                                       reinterpret_cast<minkray_scene_pair*>(found.data()), &how));
@@ -307,7 +335,9 @@ inline ScenePairs Scene::nearest(View<const Vec3> points, std::size_t k) const {
 inline void Scene::distance_to(const Bodies& shapes, View<ScenePair> nearest,
                                const NearOptions& options) const {
   const minkray_bodies bodies = detail::plain(shapes);
-  const minkray_near_options asked = detail::plain(options);
+  minkray_near_options asked = detail::plain(options);
+  asked.jac_error = detail::of_pairs<double>("minkray::Scene::distance_to", "options.pair_errors",
+                                             options.pair_errors, nearest.size());
   const minkray_options how = detail::plain(options.how);
   detail::check(minkray_scene_distance_to(handle_, &bodies, nearest.size(), &asked,
                                           reinterpret_cast<minkray_scene_pair*>(nearest.data()),
@@ -356,7 +386,8 @@ inline void Scene::allow_from_srdf(const Group& robot, Text file) {
 
 inline void Scene::clearance_derivatives(const Group& robot, View<const double> path,
                                          std::size_t rows, View<Clearance> steps, View<double> jac,
-                                         View<std::uint8_t> is_ridge) const {
+                                         View<std::uint8_t> is_ridge,
+                                         View<double> jac_error) const {
   constexpr const char* function = "minkray::Scene::clearance_derivatives";
   const std::size_t count = rows > 1 ? rows - 1 : 1, numbers = rows > 0 ? path.size() / rows : 0;
   detail::check_sizes(function, "path", path.size(), "numbers in its rows", rows * numbers);
@@ -365,8 +396,13 @@ inline void Scene::clearance_derivatives(const Group& robot, View<const double> 
     detail::check_sizes(function, "steps", steps.size(), "steps of the path", count);
   if (is_ridge.size() > 0)
     detail::check_sizes(function, "is_ridge", is_ridge.size(), "steps of the path", count);
+  if (jac_error.size() > 0)
+    detail::check_sizes(function, "jac_error", jac_error.size(), "numbers of its steps",
+                        count * numbers);
+  const minkray_clearance_options options = {sizeof options, 0, 0, 0,
+                                             jac_error.size() > 0 ? jac_error.data() : nullptr};
   detail::check(minkray_scene_clearance_derivatives(
-      handle_, robot.number(), path.data(), rows, numbers, nullptr,
+      handle_, robot.number(), path.data(), rows, numbers, &options,
       steps.size() > 0 ? reinterpret_cast<minkray_clearance*>(steps.data()) : nullptr, jac.data(),
       is_ridge.size() > 0 ? is_ridge.data() : nullptr));
 }

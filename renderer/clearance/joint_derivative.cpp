@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/clearance/joint_derivative.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
 #include <unordered_map>
 
@@ -82,9 +85,37 @@ class Motions {
   Vec3<double> origin_;
 };
 
-/// Derivatives by each number of the joint; `before` and `after` are the poses on both sides of it.
+/// Bounds of their errors.
+class MotionErrors {
+ public:
+  MotionErrors(const LinkDerivative& link, const Vec3<double>& origin, const Drift& drift)
+      : link_(link), origin_(origin), drift_(drift) {}
+
+  double slide(const Vec3<double>& along) const {
+    const double speed = link_.by.by_velocity.norm();
+    return times(along.norm(), link_.error.by_velocity + drift_.turn * speed);
+  }
+  double turn(const Vec3<double>& axis, const Vec3<double>& about) const {
+    const double speed = link_.by.by_velocity.norm(), arm = (origin_ - about).norm();
+    return times(axis.cross(origin_ - about).norm(), link_.error.by_velocity) +
+           times(axis.norm(), link_.error.by_turn + speed * (2 * drift_.way + drift_.turn * arm) +
+                                  drift_.turn * link_.by.by_turn.norm());
+  }
+
+ private:
+  /// What does not move has no error, even if one is infinite.
+  static double times(double speed, double error) { return speed > 0 ? speed * error : 0; }
+
+  const LinkDerivative& link_;
+  Vec3<double> origin_;
+  const Drift& drift_;
+};
+
+/// Derivatives, or their errors, by each number of the joint; `before` and `after` are the poses on
+/// both sides of it.
+template <class Of>
 std::vector<double> by_numbers(const ModelJoint& joint, const Affine<double>& before,
-                               const Affine<double>& after, const Motions& motions) {
+                               const Affine<double>& after, const Of& motions) {
   const std::vector<double>& q = joint.value;
   switch (joint.kind) {
     case JointKind::hinge:
@@ -133,6 +164,26 @@ std::vector<Affine<double>> poses_between(const ModelLink& link, const Affine<do
   return poses;
 }
 
+/// Calls add(index, factor, numbers of the joint) for each joint between a link and the base.
+template <class Of, class Add>
+void for_joints_of(const Model& posed, const std::vector<Affine<double>>& poses,
+                   const JointNumbers& numbers, int link_index, const Of& motions, const Add& add) {
+  for (int at = link_index; at >= 0;) {
+    const ModelLink& link = posed.links[static_cast<std::size_t>(at)];
+    const Affine<double> parent =
+        link.parent < 0 ? Affine<double>() : poses[static_cast<std::size_t>(link.parent)];
+    const std::vector<Affine<double>> between = poses_between(link, parent);
+    for (std::size_t j = link.joints.size(); j-- > 0;) {
+      const ModelJoint& joint = link.joints[j];
+      if (joint.value.size() != width_of(joint.kind) || joint.value.empty()) continue;
+      if (const auto leader = numbers.leader_of(joint))
+        add(*leader, by_numbers(joint, between[j], between[j + 1], motions));
+      if (joint.kind == JointKind::free) return;  // its place is absolute
+    }
+    at = link.parent;
+  }
+}
+
 }  // namespace
 
 std::vector<double> derivative_by_joints(const Model& posed, const JointWidths& joints,
@@ -143,26 +194,50 @@ std::vector<double> derivative_by_joints(const Model& posed, const JointWidths& 
   for (const LinkDerivative& one : links) {
     if (one.link < 0) continue;
     const Motions motions(one.by, poses[static_cast<std::size_t>(one.link)].translation);
-    bool is_absolute = false;
-    for (int at = one.link; at >= 0 && !is_absolute;) {
-      const ModelLink& link = posed.links[static_cast<std::size_t>(at)];
-      const Affine<double> parent =
-          link.parent < 0 ? Affine<double>() : poses[static_cast<std::size_t>(link.parent)];
-      const std::vector<Affine<double>> between = poses_between(link, parent);
-      for (std::size_t j = link.joints.size(); j-- > 0 && !is_absolute;) {
-        const ModelJoint& joint = link.joints[j];
-        if (joint.value.size() != width_of(joint.kind) || joint.value.empty()) continue;
-        if (const auto leader = numbers.leader_of(joint)) {
-          const std::vector<double> by = by_numbers(joint, between[j], between[j + 1], motions);
-          for (std::size_t i = 0; i < by.size(); ++i)
-            sum[leader->first + i] += leader->factor * by[i];
-        }
-        is_absolute = joint.kind == JointKind::free;
-      }
-      at = link.parent;
-    }
+    for_joints_of(posed, poses, numbers, one.link, motions,
+                  [&](const Leader& leader, const std::vector<double>& by) {
+                    for (std::size_t i = 0; i < by.size(); ++i)
+                      sum[leader.first + i] += leader.factor * by[i];
+                  });
   }
   return sum;
+}
+
+std::vector<double> errors_by_joints(const Model& posed, const JointWidths& joints,
+                                     std::span<const LinkDerivative> links) {
+  const JointNumbers numbers(posed, joints);
+  std::vector<double> sum(numbers.count());
+  const std::vector<Affine<double>> poses = link_poses(posed);
+  const Drift drift = rounding_of_links(posed);
+  for (const LinkDerivative& one : links) {
+    if (one.link < 0) continue;
+    const MotionErrors errors(one, poses[static_cast<std::size_t>(one.link)].translation, drift);
+    for_joints_of(posed, poses, numbers, one.link, errors,
+                  [&](const Leader& leader, const std::vector<double>& of) {
+                    for (std::size_t i = 0; i < of.size(); ++i)
+                      sum[leader.first + i] += std::abs(leader.factor) * of[i];
+                  });
+  }
+  return sum;
+}
+
+Drift rounding_of_links(const Model& posed) {
+  // A product of two poses rounds each number by at most 4 epsilons of what it adds up, a joint's
+  // motion and the normalization of its axis or quaternion by as much again.
+  constexpr double of_product = 16 * std::numeric_limits<double>::epsilon();
+  double products = 0, length = 0;
+  for (const ModelLink& link : posed.links) {
+    products += 1 + 2 * static_cast<double>(link.joints.size());
+    length += link.rest.translation.norm();
+    for (const ModelJoint& joint : link.joints) {
+      length += 2 * joint.anchor.norm();
+      const bool slides = joint.kind == JointKind::slide || joint.kind == JointKind::planar ||
+                          joint.kind == JointKind::free;
+      for (std::size_t i = 0; slides && i < std::min<std::size_t>(joint.value.size(), 3); ++i)
+        length += std::abs(joint.value[i]);
+    }
+  }
+  return {of_product * products * length, of_product * products};
 }
 
 }  // namespace minkray

@@ -17,6 +17,7 @@ namespace minkray {
 struct LinkDerivative {
   int link = -1;
   TwistDerivative by;
+  TwistError error = {};
 };
 
 /// Names of joints, and how many numbers each has.
@@ -27,5 +28,12 @@ using JointWidths = std::vector<std::pair<std::string, std::size_t>>;
 /// length: along the quaternion the derivative is zero.
 std::vector<double> derivative_by_joints(const Model& posed, const JointWidths& joints,
                                          std::span<const LinkDerivative> links);
+
+/// Bounds of the errors of derivative_by_joints: of the links' derivatives, and of rounding.
+std::vector<double> errors_by_joints(const Model& posed, const JointWidths& joints,
+                                     std::span<const LinkDerivative> links);
+
+/// Bounds by how much rounding may move and turn the model's links.
+Drift rounding_of_links(const Model& posed);
 
 }  // namespace minkray

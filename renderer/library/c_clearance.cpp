@@ -2,6 +2,7 @@
 // C interface: clearance of a robot's path.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "core/parallel/parallel.h"
 #include "renderer/base/errors.h"
@@ -41,6 +42,7 @@ minkray_clearance plain_clearance(const Closest& found, const Affine<double>& ro
 struct DerivativeRoom {
   double* jac = nullptr;
   std::uint8_t* is_ridge = nullptr;
+  double* jac_error = nullptr;
 
   explicit operator bool() const { return jac || is_ridge; }
 };
@@ -55,6 +57,7 @@ void find_derivatives(const Clearance& found, const JointPath& path, const Robot
           derivative_of(step < found.steps.size() ? found.steps[step] : Closest{}, path,
                         among.bodies, among.pairs, joints);
       if (room.jac) std::ranges::copy(derivative.by_joints, room.jac + i * numbers);
+      if (room.jac_error) std::ranges::copy(derivative.errors, room.jac_error + i * numbers);
       if (room.is_ridge) room.is_ridge[i] = derivative.is_ridge ? 1 : 0;
     }
   });
@@ -87,8 +90,10 @@ void find_clearance(const HeldScene& held, const HeldScene::Group& robot,
                          among.objects);
     to.row += static_cast<double>(i - step);
   }
-  if (!asked.derivatives) return;
-  find_derivatives(found, path, among, robot.joints, steps, asked.numbers, asked.derivatives);
+  DerivativeRoom room = asked.derivatives;
+  if (!room) return;
+  room.jac_error = given.jac_error;
+  find_derivatives(found, path, among, robot.joints, steps, asked.numbers, room);
   throw_if_lied(held.customs());
 }
 
@@ -99,11 +104,11 @@ void clearance_call(minkray_scene scene, std::uint32_t group,
   const HeldScene::Group& robot = held->group(group);
   if (!robot.model) wrong_use("group: must be a robot's, from URDF, MJCF, SDF or glTF");
   if (!is_rigid(robot.pose)) wrong_use("group: must have a pose that keeps lengths");
-  minkray_clearance_options given = {sizeof given, 0, 0, 0};
+  minkray_clearance_options given = {sizeof given, 0, 0, 0, nullptr};
   if (options) {
-    if (options->size < sizeof given)
+    if (options->size < offsetof(minkray_clearance_options, jac_error))
       wrong_use("options.size: must be sizeof(minkray_clearance_options)");
-    given = *options;
+    std::memcpy(&given, options, std::min(options->size, sizeof given));
   }
   if (!(given.tolerance >= 0 && given.tolerance <= 1))
     wrong_use("options.tolerance: must be between 0 and 1 (got " + std::to_string(given.tolerance) +

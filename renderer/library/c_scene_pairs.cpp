@@ -30,6 +30,7 @@ struct NearQuery {
   bool derive = false;
   std::uint32_t mask = all_categories;
   double* jac_error = nullptr;
+  const double** jac_errors = nullptr;
 };
 
 NearQuery query_of(const minkray_near_options* options, double within) {
@@ -45,7 +46,9 @@ NearQuery query_of(const minkray_near_options* options, double within) {
   query.distances = distance_options(&plain);
   query.derive = options->derivatives != 0;
   if (options->mask != 0) query.mask = options->mask;
-  if (options->size >= sizeof(minkray_near_options)) query.jac_error = options->jac_error;
+  if (options->size >= offsetof(minkray_near_options, jac_errors))
+    query.jac_error = options->jac_error;
+  if (options->size >= sizeof(minkray_near_options)) query.jac_errors = options->jac_errors;
   return query;
 }
 
@@ -78,8 +81,25 @@ minkray_scene_pair plain_pair(const ScenePair& pair) {
   return plain;
 }
 
-minkray_scene_pair plain_pair(const ScenePair& pair, const PairDerivative& derivative) {
+void put_error(const TwistError& error, double* to) {
+  to[0] = error.by_velocity;
+  to[1] = error.by_turn;
+}
+
+/// The pair, and its derivative if that is requested. `errors`: four numbers, or null.
+/// derive(error) computes it.
+template <class Derive>
+minkray_scene_pair plain_pair(const ScenePair& pair, const NearQuery& query, double* errors,
+                              const Derive& derive) {
   minkray_scene_pair plain = plain_pair(pair);
+  if (!query.derive && !errors) return plain;
+  PairDerivativeError error;
+  const PairDerivative derivative = derive(errors ? &error : nullptr);
+  if (errors) {
+    put_error(error.a, errors);
+    put_error(error.b, errors + 2);
+  }
+  if (!query.derive) return plain;
   put_twist(derivative.a, plain.jac_a);
   put_twist(derivative.b, plain.jac_b);
   plain.is_ridge = derivative.is_ridge ? 1 : 0;
@@ -94,6 +114,20 @@ minkray_scene_pair no_pair(double within) {
   none.distance.status = MINKRAY_SEPARATED;
   none.object_a = none.object_b = MINKRAY_NO_OBJECT;
   return none;
+}
+
+/// Writes the i-th result, a pair of the body `to` or null.
+void put_result(std::size_t i, const ScenePair* found, const ContactBody& to,
+                const NearQuery& query, const SceneBodies& bodies, minkray_scene_pair* results) {
+  double* const errors = query.jac_error ? query.jac_error + 4 * i : nullptr;
+  if (found) {
+    results[i] = plain_pair(*found, query, errors, [&](PairDerivativeError* error) {
+      return bodies.derivative(to, *found, error);
+    });
+    return;
+  }
+  results[i] = no_pair(query.within);
+  if (errors) std::fill_n(errors, 4, infinite);
 }
 
 std::vector<ScenePair> given_pairs(const HeldScene& held, const std::uint32_t* pairs,
@@ -199,22 +233,26 @@ int minkray_scene_distances(minkray_scene scene, const uint32_t* pairs, size_t c
     if (!take) wrong_null("take");
     const NearQuery query = query_of(options, pairs ? infinite : 0);
     std::vector<minkray_scene_pair> plain;
+    std::vector<double> errors;
     with_threads(threads_of(how), [&] {
       const SceneBodies& bodies = held->bodies();
       const std::vector<ScenePair> found =
           pairs ? given_pairs(*held, pairs, count, query)
                 : bodies.near(query.within, query.distances.tolerance);
       plain.resize(found.size());
+      if (query.jac_errors) errors.resize(4 * found.size());
       constexpr std::size_t grain = 256;
       parallel_for(found.size(), grain, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-          plain[i] = query.derive ? plain_pair(found[i], bodies.derivative(found[i]))
-                                  : plain_pair(found[i]);
+          plain[i] = plain_pair(found[i], query, query.jac_errors ? &errors[4 * i] : nullptr,
+                                [&](auto* error) { return bodies.derivative(found[i], error); });
       });
     });
     throw_if_lied(held->customs());
-    if (take(user, plain.data(), plain.size()) != 0)
-      throw CallError(MINKRAY_STOPPED, "stopped by the caller");
+    if (query.jac_errors) *query.jac_errors = errors.data();
+    const int stop = take(user, plain.data(), plain.size());
+    if (query.jac_errors) *query.jac_errors = nullptr;
+    if (stop != 0) throw CallError(MINKRAY_STOPPED, "stopped by the caller");
   });
 }
 
@@ -238,15 +276,8 @@ int minkray_scene_nearest(minkray_scene scene, const double (*points)[3], size_t
       ContactBody to{point, {}, all_categories, query.mask};
       to.pose.translation = {points[i][0], points[i][1], points[i][2]};
       const std::vector<ScenePair> found = bodies.nearest(to, k, query.within);
-      for (size_t j = 0; j < k; ++j) {
-        minkray_scene_pair& told = nearest[i * k + j];
-        if (j >= found.size())
-          told = no_pair(query.within);
-        else if (query.derive)
-          told = plain_pair(found[j], bodies.derivative(to, found[j]));
-        else
-          told = plain_pair(found[j]);
-      }
+      for (size_t j = 0; j < k; ++j)
+        put_result(i * k + j, j < found.size() ? &found[j] : nullptr, to, query, bodies, nearest);
     });
   });
 }
@@ -266,12 +297,7 @@ int minkray_scene_distance_to(minkray_scene scene, const minkray_bodies* shapes,
       const ContactBody to{body.shape_or_point(), body.pose(), all_categories, query.mask,
                            body.mesh()};
       const std::vector<ScenePair> found = bodies.nearest(to, 1, query.within);
-      if (found.empty())
-        nearest[i] = no_pair(query.within);
-      else if (query.derive)
-        nearest[i] = plain_pair(found[0], bodies.derivative(to, found[0]));
-      else
-        nearest[i] = plain_pair(found[0]);
+      put_result(i, found.empty() ? nullptr : &found[0], to, query, bodies, nearest);
     });
     throw_if_lied(all.customs());
   });
@@ -303,10 +329,7 @@ int minkray_scene_time_of_impact(minkray_scene scene, const minkray_bodies* shap
       PairDerivativeError error;
       const PairDerivative derivative =
           bodies.derivative(body.parts(), motion, found, query.jac_error ? &error : nullptr);
-      if (query.jac_error) {
-        query.jac_error[2 * i] = error.a.by_velocity;
-        query.jac_error[2 * i + 1] = error.a.by_turn;
-      }
+      if (query.jac_error) put_error(error.a, query.jac_error + 2 * i);
       if (!query.derive) return;
       put_twist(derivative.a, told.jac);
       told.is_ridge = derivative.is_ridge ? 1 : 0;

@@ -268,22 +268,24 @@ ContactManifold SceneBodies::manifold(std::uint32_t a, std::uint32_t b,
   return contact_manifold(one.shape, one.pose, other.shape, other.pose, nearest);
 }
 
-PairDerivative SceneBodies::derivative(const ScenePair& pair) const {
+PairDerivative SceneBodies::derivative(const ScenePair& pair, PairDerivativeError* error) const {
+  if (error) *error = {};
   const HalfSpace *plane_a = half_space_of(pair.a), *plane_b = half_space_of(pair.b);
   if (!plane_a && !plane_b) {
     const ContactBody &one = body_of(pair.a), &other = body_of(pair.b);
     if (one.mesh || other.mesh)
       return derivative_of(one.parts(), one.pose, other.parts(), other.pose);
-    return finest_derivative_of(one.shape, one.pose, other.shape, other.pose);
+    return finest_derivative_of(one.shape, one.pose, other.shape, other.pose, error);
   }
   const HalfSpace& plane = plane_a ? *plane_a : *plane_b;
   const ContactBody& body = body_of(plane_a ? pair.b : pair.a);
   SignedDistance distance = pair.distance;
   if (plane_b) turn_round(distance);
-  // The lowest vertex of a mesh is a body of its own.
   PairDerivative derivative =
-      derivative_at_half_space(plane.origin, body.mesh ? point_ : body.shape, body.pose, distance);
-  if (plane_b) turn_round(derivative);
+      derivative_at_half_space(plane.origin, body.parts(), body.pose, distance, error);
+  if (!plane_b) return derivative;
+  turn_round(derivative);
+  if (error) std::swap(error->a, error->b);
   return derivative;
 }
 
@@ -305,18 +307,21 @@ std::vector<ScenePair> SceneBodies::nearest(const ContactBody& to, std::size_t c
   return best;
 }
 
-PairDerivative SceneBodies::derivative(const ContactBody& of, const ScenePair& pair) const {
+PairDerivative SceneBodies::derivative(const ContactBody& of, const ScenePair& pair,
+                                       PairDerivativeError* error) const {
+  if (error) *error = {};
   if (const HalfSpace* const half_space = half_space_of(pair.b)) {
     SignedDistance distance = pair.distance;
     turn_round(distance);
-    PairDerivative derivative = derivative_at_half_space(
-        half_space->origin, of.mesh ? point_ : of.shape, of.pose, distance);
+    PairDerivative derivative =
+        derivative_at_half_space(half_space->origin, of.parts(), of.pose, distance, error);
     turn_round(derivative);
+    if (error) std::swap(error->a, error->b);
     return derivative;
   }
   const ContactBody& other = body_of(pair.b);
   if (of.mesh || other.mesh) return derivative_of(of.parts(), of.pose, other.parts(), other.pose);
-  return finest_derivative_of(of.shape, of.pose, other.shape, other.pose);
+  return finest_derivative_of(of.shape, of.pose, other.shape, other.pose, error);
 }
 
 Vec3<double> SceneBodies::origin(std::uint32_t object) const {

@@ -33,12 +33,14 @@ class SceneBodies {
   /// Independent of the rules. Throws CallError if both are half-spaces.
   SignedDistance distance(std::uint32_t a, std::uint32_t b, const SignedDistanceOptions& how) const;
   ContactManifold manifold(std::uint32_t a, std::uint32_t b, const SignedDistance& nearest) const;
-  PairDerivative derivative(const ScenePair& pair) const;
+  /// Fills `error`, if there is one; infinite for meshes, whose other triangles are not considered.
+  PairDerivative derivative(const ScenePair& pair, PairDerivativeError* error = nullptr) const;
 
   /// The objects nearest to a body, the nearest first; of those in a category of the mask.
   std::vector<ScenePair> nearest(const ContactBody& to, std::size_t count, double at_most) const;
   /// Derivative by a twist of body `of`.
-  PairDerivative derivative(const ContactBody& of, const ScenePair& pair) const;
+  PairDerivative derivative(const ContactBody& of, const ScenePair& pair,
+                            PairDerivativeError* error = nullptr) const;
 
   /// Null of a half-space.
   const ContactBody* body(std::uint32_t object) const {

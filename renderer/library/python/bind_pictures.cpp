@@ -70,23 +70,27 @@ py::array_t<T> column(const std::vector<minkray_clearance>& found, T minkray_cle
 }
 
 py::dict clearance(const Scene& scene, const Scene::Group& robot, const Doubles& path,
-                   double tolerance, bool only_obstacles, bool jac, int threads) {
+                   double tolerance, bool only_obstacles, bool jac, bool jac_error, int threads) {
   if (path.ndim() != 2) throw py::value_error("path: must have shape (rows, joint values)");
   const auto rows = static_cast<std::size_t>(path.shape(0));
   std::vector<minkray_clearance> steps(std::max<std::size_t>(rows, 2) - 1);
-  const minkray_clearance_options options = {sizeof options, tolerance, only_obstacles ? 1 : 0,
-                                             threads};
+  minkray_clearance_options options = {sizeof options, tolerance, only_obstacles ? 1 : 0, threads,
+                                       nullptr};
   const auto count = static_cast<py::ssize_t>(steps.size());
   const auto numbers = static_cast<std::size_t>(path.shape(1));
-  py::array_t<double> by_joints({jac ? count : 0, path.shape(1)});
-  py::array_t<bool> is_ridge(jac ? count : 0);
+  const bool has_derivatives = jac || jac_error;
+  py::array_t<double> by_joints({has_derivatives ? count : 0, path.shape(1)});
+  py::array_t<double> errors({jac_error ? count : 0, path.shape(1)});
+  py::array_t<bool> is_ridge(has_derivatives ? count : 0);
+  if (jac_error) options.jac_error = errors.mutable_data();
   double* const to_jac = by_joints.mutable_data();
   auto* const to_ridge = reinterpret_cast<std::uint8_t*>(is_ridge.mutable_data());
   int code = MINKRAY_OK;
   {
     const Unlocked unlock;
     code =
-        jac ? minkray_scene_clearance_derivatives(scene.handle(), robot.number(), path.data(), rows,
+        has_derivatives
+            ? minkray_scene_clearance_derivatives(scene.handle(), robot.number(), path.data(), rows,
                                                   numbers, &options, steps.data(), to_jac, to_ridge)
             : minkray_scene_clearance(scene.handle(), robot.number(), path.data(), rows, numbers,
                                       &options, steps.data(), nullptr);
@@ -105,6 +109,7 @@ py::dict clearance(const Scene& scene, const Scene::Group& robot, const Doubles&
     result["jac"] = by_joints;
     result["is_ridge"] = is_ridge;
   }
+  if (jac_error) result["jac_error"] = errors;
   return result;
 }
 

@@ -13,7 +13,12 @@ using minkray::Scene;
 using Bytes = py::array_t<std::uint8_t, py::array::c_style>;
 
 minkray_near_options options_of(double within, double tolerance, bool jac, std::uint32_t mask) {
-  return {sizeof(minkray_near_options), within, tolerance, jac ? 1 : 0, mask, nullptr};
+  return {sizeof(minkray_near_options), within, tolerance, jac ? 1 : 0, mask, nullptr, nullptr};
+}
+
+/// None, or an array for bounds of the derivatives' errors.
+double* room_for_errors(const py::object& errors) {
+  return errors.is_none() ? nullptr : errors.cast<Doubles>().mutable_data();
 }
 
 template <class Row>
@@ -25,8 +30,9 @@ Row* first_of(Bytes& bytes) {
   return reinterpret_cast<Row*>(bytes.mutable_data());
 }
 
-Bytes distances(const Scene& scene, const py::object& pairs, double within, double tolerance,
-                bool jac, int threads) {
+/// The pairs, and the bounds of the derivatives' errors, four for each, if `jac_error`.
+py::tuple distances(const Scene& scene, const py::object& pairs, double within, double tolerance,
+                    bool jac, bool jac_error, int threads) {
   using Numbers = py::array_t<std::uint32_t, py::array::c_style>;
   Numbers given;
   if (!pairs.is_none()) given = pairs.cast<Numbers>();
@@ -35,25 +41,35 @@ Bytes distances(const Scene& scene, const py::object& pairs, double within, doub
                                      : given.size() > 0 ? given.data()
                                                         : none;
   const auto count = static_cast<std::size_t>(given.size() / 2);
-  const minkray_near_options options = options_of(within, tolerance, jac, 0);
-  std::vector<minkray_scene_pair> found;
+  struct {
+    std::vector<minkray_scene_pair> found;
+    std::vector<double> errors;
+    const double* their_errors = nullptr;
+  } taken;
+  minkray_near_options options = options_of(within, tolerance, jac, 0);
+  if (jac_error) options.jac_errors = &taken.their_errors;
   Interruptible(threads).run([&](const minkray_options* how) {
     const auto take = [](void* user, const minkray_scene_pair* all, std::size_t size) {
-      static_cast<std::vector<minkray_scene_pair>*>(user)->assign(all, all + size);
+      auto& to = *static_cast<decltype(taken)*>(user);
+      to.found.assign(all, all + size);
+      if (to.their_errors) to.errors.assign(to.their_errors, to.their_errors + 4 * size);
       return 0;
     };
-    return minkray_scene_distances(scene.handle(), first, count, &options, take, &found, how);
+    return minkray_scene_distances(scene.handle(), first, count, &options, take, &taken, how);
   });
-  Bytes bytes = rows<minkray_scene_pair>(found.size());
-  if (!found.empty())
-    std::memcpy(bytes.mutable_data(), found.data(), found.size() * sizeof found[0]);
-  return bytes;
+  Bytes bytes = rows<minkray_scene_pair>(taken.found.size());
+  if (!taken.found.empty())
+    std::memcpy(bytes.mutable_data(), taken.found.data(),
+                taken.found.size() * sizeof taken.found[0]);
+  return py::make_tuple(
+      bytes, Doubles(static_cast<py::ssize_t>(taken.errors.size()), taken.errors.data()));
 }
 
 Bytes nearest(const Scene& scene, const Doubles& points, std::size_t k, double within, bool jac,
-              std::uint32_t mask, int threads) {
+              const py::object& errors, std::uint32_t mask, int threads) {
   const auto count = static_cast<std::size_t>(points.shape(0));
-  const minkray_near_options options = options_of(within, 0, jac, mask);
+  minkray_near_options options = options_of(within, 0, jac, mask);
+  options.jac_error = room_for_errors(errors);
   Bytes bytes = rows<minkray_scene_pair>(count * k);
   auto* const to = first_of<minkray_scene_pair>(bytes);
   const auto* const from = reinterpret_cast<const double(*)[3]>(points.data());
@@ -64,8 +80,9 @@ Bytes nearest(const Scene& scene, const Doubles& points, std::size_t k, double w
 }
 
 Bytes distance_to(const Scene& scene, const Side& shapes, std::size_t count, double within,
-                  bool jac, std::uint32_t mask, int threads) {
-  const minkray_near_options options = options_of(within, 0, jac, mask);
+                  bool jac, const py::object& errors, std::uint32_t mask, int threads) {
+  minkray_near_options options = options_of(within, 0, jac, mask);
+  options.jac_error = room_for_errors(errors);
   Bytes bytes = rows<minkray_scene_pair>(count);
   auto* const to = first_of<minkray_scene_pair>(bytes);
   Interruptible(threads).run([&](const minkray_options* how) {
@@ -78,7 +95,7 @@ Bytes time_of_impact(const Scene& scene, const Side& shapes, std::size_t count,
                      const Doubles& t_max, bool jac, const py::object& errors, std::uint32_t mask,
                      int threads) {
   minkray_near_options options = options_of(0, 0, jac, mask);
-  if (!errors.is_none()) options.jac_error = errors.cast<Doubles>().mutable_data();
+  options.jac_error = room_for_errors(errors);
   Bytes bytes = rows<minkray_scene_impact>(count);
   auto* const to = first_of<minkray_scene_impact>(bytes);
   const double* const ends = t_max.data();

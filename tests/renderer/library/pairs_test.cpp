@@ -226,7 +226,7 @@ TEST(LibraryPairs, of_a_scene_in_c) {
   const std::uint32_t ground = scene.add_half_space({0, 0, 1}, 0);
   const std::uint32_t other = scene.add(mk::sphere(1), mk::translation({2.25, 0, 5}));
   scene.commit();
-  const minkray_near_options options = {sizeof options, 1, 0, 1, 0, nullptr};
+  const minkray_near_options options = {sizeof options, 1, 0, 1, 0, nullptr, nullptr};
   std::vector<minkray_scene_pair> pairs;
   const auto take = [](void* user, const minkray_scene_pair* all, std::size_t count) {
     static_cast<std::vector<minkray_scene_pair>*>(user)->assign(all, all + count);

@@ -145,6 +145,9 @@ class Clearance(_Arrays):
         With ``jac=True``: the derivative of the distance by the joints' values at `row`, and True
         where it may be ambiguous, for example if two pairs are equally near. The derivatives by the
         two rows around `row` are ``(1 - s) * jac`` and ``s * jac``, with ``s`` the fraction of `row`.
+    jac_error : (K, J) float64
+        With ``jac_error=True``: bounds of the error of each number of `jac`, at the values at `row` as
+        rounded; inf on ridges and for meshes.
     """
 
     def __repr__(self):

@@ -509,7 +509,8 @@ class Scene(PairsOfScene):
                                often(max_depth, "max_depth"), bool(denoise), names, _threads(threads))
 
     @public
-    def clearance(self, robot, path, tolerance=0.01, only_obstacles=False, threads=0, *, jac=False):
+    def clearance(self, robot, path, tolerance=0.01, only_obstacles=False, threads=0, *, jac=False,
+                  jac_error=False):
         """Proven clearance of a robot along a path, to itself and to all other objects.
 
         Parameters
@@ -527,6 +528,8 @@ class Scene(PairsOfScene):
             0: one per core.
         jac : bool
             Add derivatives by the joints.
+        jac_error : bool
+            Add bounds of the derivatives' errors.
 
         Returns
         -------
@@ -540,7 +543,7 @@ class Scene(PairsOfScene):
             raise Error(f"path: must have shape (rows, joint values) (got {path.shape})")
         return Clearance(_minkray.clearance(self._ready(), robot._group, path,
                                             number_of(tolerance, "tolerance"), bool(only_obstacles),
-                                            bool(jac), _threads(threads)))
+                                            bool(jac), bool(jac_error), _threads(threads)))
 
     def verify(self, robot, path, rates=None, margin=0.0, tolerance=0.01, only_obstacles=False, threads=0,
                *, budget=4000, accelerations=None, proof=None):

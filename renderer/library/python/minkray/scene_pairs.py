@@ -39,6 +39,8 @@ class ScenePairs(_Arrays):
         A `DistanceStatus`.
     jac_a, jac_b, is_ridge
         With ``jac=True``, as in `Distances`: about the origins of the objects' frames.
+    jac_error_a, jac_error_b : (M, 2) float64
+        With ``jac_error=True``, as in `Distances`; inf for meshes, except above half-spaces.
     """
 
     def __repr__(self):
@@ -61,6 +63,8 @@ class Nearest(_Arrays):
     jac, is_ridge : six numbers, and bool
         With ``jac=True``: the derivative of `value` by a twist of the shape (for a point, its
         velocity), and True where it may be ambiguous. Other objects at the same distance do not count.
+    jac_error : two numbers
+        With ``jac_error=True``: bounds of the length of the error of `jac`, as of `Distances`.
     """
 
     def __repr__(self):
@@ -119,6 +123,14 @@ _OF_NEAREST = {"object": "object_b", "value": "value", "lower": "lower", "upper"
                "is_ridge": "is_ridge"}
 _OF_IMPACT = {name: name for name in ("object", "t_lo", "t_hi", "normal", "point_a", "point_b", "distance",
                                       "status", "jac", "is_ridge")}
+
+
+def _nearest_of(rows, jac, errors):
+    """`errors`: None, or four bounds per row, of which the shape's are kept."""
+    fields = _columns(rows, _OF_NEAREST, jac)
+    if errors is not None:
+        fields["jac_error"] = errors[..., :2].copy()
+    return Nearest(fields)
 
 
 def _length(value, argument):
@@ -229,7 +241,7 @@ class PairsOfScene:
         _call_c(_minkray.scene_allow_from_srdf, self._scene, robot_of(robot, self._scene)._group, name_of(file))
 
     @_public
-    def distances(self, pairs=None, within=None, *, tolerance=1e-10, jac=False, threads=0):
+    def distances(self, pairs=None, within=None, *, tolerance=1e-10, jac=False, jac_error=False, threads=0):
         """All pairs of objects within a distance of each other.
 
         Skips pairs excluded by `allow` or `set_masks`, pairs of half-spaces, and links of a robot that
@@ -246,6 +258,8 @@ class PairsOfScene:
             Gap between the bounds, relative to the objects' sizes.
         jac : bool
             Add derivatives.
+        jac_error : bool
+            Add bounds of the derivatives' errors.
         threads : int
             0: one per core. Results are bit-identical for any number.
 
@@ -265,12 +279,17 @@ class PairsOfScene:
         """
         within = (0.0 if pairs is None else np.inf) if within is None else _length(within, "within")
         pairs = None if pairs is None else _numbers(pairs, "pairs")
-        rows = _call_c(_minkray.scene_distances, self._ready(), pairs, within,
-                     number_of(tolerance, "tolerance"), bool(jac), threads_of(threads)).view(_PAIR)
-        return ScenePairs(_columns(rows, _OF_PAIR, jac))
+        rows, errors = _call_c(_minkray.scene_distances, self._ready(), pairs, within,
+                               number_of(tolerance, "tolerance"), bool(jac), bool(jac_error),
+                               threads_of(threads))
+        fields = _columns(rows.view(_PAIR), _OF_PAIR, jac)
+        if jac_error:
+            errors = errors.reshape(-1, 2, 2)
+            fields["jac_error_a"], fields["jac_error_b"] = errors[:, 0].copy(), errors[:, 1].copy()
+        return ScenePairs(fields)
 
     @_public
-    def nearest(self, points, k=1, *, within=np.inf, mask=_ALL, jac=False, threads=0):
+    def nearest(self, points, k=1, *, within=np.inf, mask=_ALL, jac=False, jac_error=False, threads=0):
         """The k objects nearest to points.
 
         Parameters
@@ -283,7 +302,7 @@ class PairsOfScene:
             Objects that are proven to be further away are skipped.
         mask : int
             Categories to query; see `set_masks`.
-        jac, threads
+        jac, jac_error, threads
             As for `distances`.
 
         Returns
@@ -297,12 +316,13 @@ class PairsOfScene:
         k = whole_number_of(k, "k")
         if k == 0:
             raise Error("k: must be at least 1 (got 0)")
+        errors = np.empty((len(points), k, 4)) if jac_error else None
         rows = _call_c(_minkray.scene_nearest, self._ready(), points, k, _length(within, "within"), bool(jac),
-                     _mask(mask), threads_of(threads)).view(_PAIR).reshape(len(points), k)
-        return Nearest(_columns(rows, _OF_NEAREST, jac))
+                     errors, _mask(mask), threads_of(threads)).view(_PAIR).reshape(len(points), k)
+        return _nearest_of(rows, jac, errors)
 
     @_public
-    def distance_to(self, shape, poses, within=np.inf, *, mask=_ALL, jac=False, threads=0):
+    def distance_to(self, shape, poses, within=np.inf, *, mask=_ALL, jac=False, jac_error=False, threads=0):
         """The object nearest to a shape outside of the scene, at many poses.
 
         Parameters
@@ -310,7 +330,7 @@ class PairsOfScene:
         shape : Shape, or list of N of them
         poses : (N, 4, 4), (N, 3, 4) or (N, 7) array, or one of them
             Rigid; as for `minkray.signed_distances`.
-        within, mask, jac, threads
+        within, mask, jac, jac_error, threads
             As for `nearest`.
 
         Returns
@@ -320,9 +340,10 @@ class PairsOfScene:
             `within`.
         """
         moved = _Moved(shape, poses)
+        errors = np.empty(moved.together.shape + (4,)) if jac_error else None
         rows = _call_c(_minkray.scene_distance_to, self._ready(), moved.side(), moved.together.count,
-                     _length(within, "within"), bool(jac), _mask(mask), threads_of(threads))
-        return Nearest(_columns(rows.view(_PAIR).reshape(moved.together.shape), _OF_NEAREST, jac))
+                     _length(within, "within"), bool(jac), errors, _mask(mask), threads_of(threads))
+        return _nearest_of(rows.view(_PAIR).reshape(moved.together.shape), jac, errors)
 
     @_public
     def time_of_impact(self, shape, poses, twists, t_max=1.0, *, mask=_ALL, jac=False, jac_error=False,
