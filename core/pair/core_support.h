@@ -138,8 +138,8 @@ struct Symmetric {
   }
 };
 
-/// Adds `weight` times the derivative of the feature's point by the direction d, in the frame that
-/// `turn` leads to. `point` is the feature's point.
+/// Adds `weight` times the derivative of the feature's point with respect to the direction d,
+/// rotated by `turn`. `point` is the feature's point.
 template <CoreKind K>
 inline void add_curvature(Symmetric& S, double weight, const ShapeCore& core,
                           const Mat3<double>& turn, int feature, const Vec3<double>& d,

@@ -13,8 +13,8 @@
 
 namespace minkray {
 
-/// Derivatives by the velocity of the body's origin along the world's axes, and by its angular
-/// velocity about that point.
+/// Derivatives with respect to the velocity of the body's origin along the world's axes, and to its
+/// angular velocity about that point.
 struct TwistDerivative {
   Vec3<double> by_velocity = Vec3<double>::Zero();
   Vec3<double> by_turn = Vec3<double>::Zero();
@@ -48,8 +48,8 @@ PairDerivative finest_derivative_of(const ContactShape& a, const Affine<double>&
 PairDerivative derivative_at_half_space(const Vec3<double>& origin, const ContactShape& b,
                                         const Affine<double>& pose_b, const SignedDistance& found);
 
-/// Takes t_lo by a twist of each body at time 0. Zero where they begin inside each other; NaN where
-/// there is no contact.
+/// Derivative of t_lo with respect to a twist of each body at time 0. Zero if the bodies overlap at
+/// time 0; NaN without contact.
 PairDerivative derivative_of(const ContactShape& a, const RigidMotion& motion_a,
                              const ContactShape& b, const RigidMotion& motion_b,
                              const Impact& found);

@@ -285,8 +285,8 @@ void add_distance(Parser& parser, ExitCode&) {
   const auto options = std::make_shared<DistanceVerbOptions>();
   options->command_files = &verb.files();
   verb.add_option("files", options->files,
-                  "Two files with one shape each; or a robot or scene, and other files to measure "
-                  "against. " +
+                  "Two files with one shape each; or a robot or scene, then other files to measure "
+                  "against. Each file: " +
                       scene_argument())
       .required()
       .reads_file();
@@ -300,8 +300,9 @@ void add_distance(Parser& parser, ExitCode&) {
   verb.add_option("-o,--output", options->output, "A CSV file to write instead of the table")
       .writes_file();
   verb.add_option("--at-most", options->at_most,
-                  "Two shapes: beyond this distance, return a lower bound only");
-  verb.add_flag("--only-sign", options->only_sign, "Two shapes: only decide if they overlap");
+                  "Beyond this distance, return a lower bound only (two shapes only)");
+  verb.add_flag("--only-sign", options->only_sign,
+                "Only decide if the shapes overlap (two shapes only)");
   add_import_options(verb, options->import, false);
   verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")
       .between(0, 1024)

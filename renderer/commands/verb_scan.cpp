@@ -208,7 +208,7 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .group(heading)
       .takes("MIN,MAX");
   verb.add_option("--noise", options.noise,
-                  "Standard deviations: of ranges, of angles (rad); growth of the first per length")
+                  "Standard deviations: of range, of angle (rad), of range per unit distance")
       .group(heading)
       .takes("RANGE[,ANGLE[,PER_LENGTH]]");
   verb.add_option("--dropout", options.scan.dropout, "Probability that a ray returns nothing")
@@ -219,7 +219,7 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .takes("N")
       .show_default();
   verb.add_option("--returns", options.scan.returns,
-                  "Echoes per ray: successive bodies, or parts of a beam")
+                  "Echoes per ray: bodies along it; with --divergence, hits of one beam")
       .group(heading)
       .between(1, 64)
       .show_default();
@@ -230,7 +230,7 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .one_of(echo_orders)
       .show_default();
   verb.add_option("--divergence", options.scan.divergence,
-                  "Full beam angle (rad); echoes are then first hits of the beam's rays")
+                  "Full beam angle (rad). If set, echoes are the first hits of --beam-rays rays")
       .group(heading)
       .between(0.0, 1.0);
   verb.add_option("--beam-rays", options.scan.beam_rays, "Rays per beam")
@@ -261,7 +261,8 @@ void add_scan(Parser& parser, ExitCode&) {
       .required()
       .one_value_each()
       .writes_file();
-  verb.add_option("--ids", options->table, "JSON file to write: numbers and names of the objects")
+  verb.add_option("--ids", options->table,
+                  "JSON file to write, with the number and name of each object")
       .writes_file();
   verb.add_flag("--half", options->has_halfs, "Write .exr with 16-bit floats");
   verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")

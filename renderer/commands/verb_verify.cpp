@@ -280,7 +280,7 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
       .between(1e-9, 1.0)
       .show_default();
   verb.add_option("--budget", options->budget,
-                  "Most distance queries per pair and step (row to row); then undecided")
+                  "Distance queries per pair and step (row to row) before `undecided`")
       .between(std::size_t{1}, std::size_t{1'000'000'000})
       .show_default();
   verb.add_flag("--serve", options->serve,
