@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Signed distance of two bodies, at least one of which is a mesh: the least distance over all pairs
-// of their parts (a mesh's triangles, or the whole convex shape). Parts are convex, so each pair
-// has proven bounds; the least lower and the least upper bound hold for the bodies.
+// Signed distance of two bodies, at least one a mesh: the least distance over all pairs of their
+// parts (a mesh's triangles, or the whole convex shape). Parts are convex, so each pair has proven
+// bounds; the least lower and the least upper bound hold for the bodies.
 #pragma once
 
 #include "core/pair_distance/signed_distance.h"
