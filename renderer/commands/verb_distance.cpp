@@ -77,8 +77,7 @@ DistanceFile kind_of_file(const std::string& file) {
 
 void distance_of_shapes(const DistanceVerbOptions& options) {
   if (options.is_of_table())
-    throw WrongUsage(
-        "distance: of two shapes only --tolerance, --at-most and --only-sign are used");
+    throw WrongUsage("distance: for two shapes only --tolerance, --at-most and --only-sign apply");
   SignedDistanceQuery query{shape_in(options.files[0], options.command_files),
                             shape_in(options.files[1], options.command_files)};
   query.at_most = options.at_most;
@@ -262,7 +261,7 @@ void distance(const DistanceVerbOptions& options) {
   if (kinds == std::vector{DistanceFile::shape, DistanceFile::shape})
     return distance_of_shapes(options);
   if (options.at_most != no_limit || options.only_sign)
-    throw WrongUsage("--at-most and --only-sign are for two shapes; of a table there is --within");
+    throw WrongUsage("--at-most and --only-sign are for two shapes; for a table use --within");
   if (kinds == std::vector{DistanceFile::shape})
     throw WrongUsage("distance: must have a second file (" + printable(options.files[0], 100) +
                      " is a shape)");
