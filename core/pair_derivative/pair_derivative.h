@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Derivatives of a pair's signed distance, and of the time of its first contact, when the bodies
-// are moved a little: by the envelope theorem the nearest points may be assumed fixed on the
-// bodies (J. Danskin, "The Theory of Max-Min, with Applications", 1966). If there are several
-// pairs of them, or several directions of the depth, there are several derivatives.
+// Derivatives of a pair's signed distance and of the time of its first contact with respect to the
+// bodies' motion: by the envelope theorem the nearest points can be treated as fixed on the bodies
+// (J. Danskin, "The Theory of Max-Min, with Applications", 1966). With several pairs of nearest
+// points, or several directions of the depth, there are several derivatives.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct TwistDerivative {
 
 struct PairDerivative {
   TwistDerivative a, b;
-  /// The bounds do not exclude that there are other derivatives; this is one of them.
+  /// True if the bounds do not exclude other derivatives; this is one of them.
   bool is_ridge = false;
 };
 
@@ -34,13 +34,13 @@ inline SignedDistanceOptions for_derivatives(SignedDistanceOptions options = {})
   return options;
 }
 
-/// `found` is the result on this pair, computed with for_derivatives(), with both of its bounds;
-/// else nothing is known: NaN, and a ridge. Fills `error`, if there is one.
+/// `found` is the pair's result with both bounds, computed with for_derivatives(); otherwise the
+/// derivative is NaN and marked as a ridge. Writes `error` if it is not null.
 PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a,
                              const ContactShape& b, const Affine<double>& pose_b,
                              const SignedDistance& found, PairDerivativeError* error = nullptr);
 
-/// Computes the signed distance, too, as finely as that needs.
+/// Also computes the signed distance, as accurately as the derivative needs.
 PairDerivative finest_derivative_of(const ContactShape& a, const Affine<double>& pose_a,
                                     const ContactShape& b, const Affine<double>& pose_b);
 

@@ -15,7 +15,7 @@ namespace minkray {
 
 enum class SignedStatus : unsigned char {
   separated,    ///< lower > 0
-  touching,     ///< 0 is between the bounds, which differ by at most 1e-9 of the sizes
+  touching,     ///< 0 is between the bounds, which differ by at most 1e-9 bounding radii
   overlapping,  ///< upper < 0
   undecided,    ///< 0 is between the bounds, which differ by more
 };

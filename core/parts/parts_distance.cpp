@@ -25,7 +25,7 @@ std::optional<Vec3<double>> point_held_by(const PartsBody& one, const Affine<dou
   return is_within(*one.mesh(), seen) ? std::optional(point) : std::nullopt;
 }
 
-/// Least distance of the parts that a walk visits.
+/// Least distance over the pairs of parts that a traversal visits.
 class LeastDistance {
  public:
   LeastDistance(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
