@@ -9,7 +9,7 @@ namespace {
 
 template <class Finer, class T>
 CastResult<double> cast_finer(const Shape<Finer>& shape, const StageQuestion<T>& question) {
-  // Mapped, though to itself: r is of unit length to the wider numbers' rounding then.
+  // Mapped by the identity, which makes r a unit vector to the wider type's rounding.
   const RayNearBall<Finer> near =
       in_precision<Finer>(question.near).mapped(Mat3<Finer>::Identity());
   return in_precision<double>(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The stages that cast with nothing but supports, for an observer of any type.
+// Stages that cast with support points alone, for an observer of any type.
 #pragma once
 
 #include "core/cast/stages.h"
@@ -9,8 +9,8 @@
 
 namespace minkray {
 
-/// The reference algorithms are not worth compiling for every shape, nor is the cast that is
-/// observed: they see Shape<T>.
+/// Reference algorithms and observed casts use Shape<T>: compiling them for every kind of shape is
+/// not worthwhile.
 template <class T, class Observer>
 CastResult<T> cast_with_gjk(Stage stage, const StageQuestion<T>& question, Observer&& observer) {
   const auto& near = question.near;
@@ -38,11 +38,11 @@ CastResult<T> cast_with_gjk(Stage stage, const StageQuestion<T>& question, Obser
   };
   CastResult<T> result = answer();
   result.path = Path::gjk;
-  if (result.status == Status::hit) {  // known to the rounding of a plane's offset
+  if (result.status == Status::hit) {  // known up to the rounding of a plane's offset
     const T slope = std::max(-result.normal.dot(near.r), tolerance::least_slope<T>);
     const T rounding =
         (tolerance::plane_rounding<T> * ball.radius + near.loss) / slope * near.t_per_length;
-    // Rays that were turned round are counted down.
+    // For reversed rays t decreases along the ray.
     const T digits = std::copysign(near.offset_rounding(result.t_offset), near.t_per_length);
     result.offset_lo -= rounding + digits;
     result.offset_hi += rounding + digits;

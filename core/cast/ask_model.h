@@ -7,7 +7,7 @@
 
 namespace minkray {
 
-/// Exhausted if the model does not converge, or if it is uncertain whether the origin lies inside.
+/// Returns `exhausted` if the model does not converge, or if the origin may or may not lie inside.
 template <class T, class Observer>
 CastResult<T> cast_with_model(Stage stage, const StageQuestion<T>& question, Observer&& observer) {
   const PreparedShape<T>& shape = question.shape;
@@ -29,7 +29,7 @@ CastResult<T> cast_with_model(Stage stage, const StageQuestion<T>& question, Obs
   const auto cast = [&](const auto& make_model) {
     CastLanes<T> lanes = model_cast<T>(make_model, near, ball, shape.inner_half_extents(), true,
                                        max_iterations, observer);
-    // A portal's plane that is no more than a direction proves nothing about a curved shape.
+    // A hit on the portal's triangle alone proves nothing about a curved shape.
     if (is_portal && lanes.by_model) lanes.hit = false;
     if (lanes.uncertain && shape.definition().uncertain_slope() > T(0)) lanes.inside = false;
     return result_of(lanes);

@@ -19,7 +19,7 @@ constexpr int most_corners = 7, most_refinements = 32;
 /// Stops refining when the bound is within this many times the plane's rounding.
 constexpr double good_share = 3;
 
-/// A support point relative to the hit: its offset across the ray, and along it.
+/// A support point relative to the hit: its offsets perpendicular to the ray and along it.
 struct Corner {
   Vec2 beside = Vec2::Zero();
   double along = 0;
@@ -29,14 +29,14 @@ double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// A triangle of support points that the ray passes through, and the search for it: the GJK of a
-/// point in the plane across the ray.
+/// A triangle of support points that the ray crosses, and the search for it: GJK for a point in the
+/// plane perpendicular to the ray.
 class Portal {
  public:
   /// Corners are known to `rounding`.
   explicit Portal(double rounding) : rounding_(rounding) {}
 
-  /// The ray must pass so far within the triangle's sides that no rounding lets it out.
+  /// Least distance of the ray from the triangle's sides, so that rounding cannot move it outside.
   double least_distance() const { return 2 * rounding_; }
 
   void add(const Corner& corner) { corners_[size_++] = corner; }
@@ -63,7 +63,7 @@ class Portal {
     return outward;
   }
 
-  /// Slope of the triangle's plane: rise along the ray per length across it.
+  /// Slope of the triangle's plane: rise along the ray per distance perpendicular to it.
   Vec2 rise() const {
     const Vec2 u = corners_[1].beside - corners_[0].beside,
                v = corners_[2].beside - corners_[0].beside;
@@ -74,7 +74,7 @@ class Portal {
   double along_ray() const { return corners_[0].along - rise().dot(corners_[0].beside); }
 
   /// Returns an upper bound of where the ray crosses the triangle. Rounding of the corners moves
-  /// the plane, and moves it further along the ray the more the plane is slanted.
+  /// the plane; along the ray, it moves further the more the plane is slanted.
   double latest() const {
     const Vec2 u = corners_[1].beside - corners_[0].beside,
                v = corners_[2].beside - corners_[0].beside;
@@ -114,7 +114,7 @@ class Portal {
     const double length = (to.beside - from.beside).norm();
     return length > 0 ? std::copysign(1.0, turn) * cross(from.beside, to.beside) / length : 0;
   }
-  /// At right angles to the edge, to its left if the sign is positive.
+  /// Perpendicular to the edge, to its left if the sign is positive.
   Vec2 beside_edge(std::size_t i, std::size_t j, double sign) const {
     const Vec2 edge = corners_[j].beside - corners_[i].beside;
     return Vec2(-edge.y(), edge.x()) * std::copysign(1.0, sign);
@@ -125,7 +125,7 @@ class Portal {
   std::size_t size_ = 0;
 };
 
-/// Support points of a shape as a ray sees them from its hit.
+/// Support points of a shape in the ray's frame, relative to the hit.
 class Seen {
  public:
   Seen(const PreparedShape<double>& shape, const RayNearBall<double>& near, const Vec3<double>& x,

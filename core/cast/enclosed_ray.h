@@ -7,12 +7,12 @@
 
 namespace minkray {
 
-/// Bounds a hit's parameter from above where its solver has not, by support points in directions
-/// tilted slightly from the hit's normal. A flat face gives its corners; a patch of curvature
-/// radius rho and a tilt delta gives points rho * delta from the hit and rho * delta^2 under it.
-/// Where that is far, the triangle is refined as portals are (G. Snethen, "XenoCollide", 2008).
-/// Leaves the bound infinite where the ray passes an edge within rounding. The ray and the normal
-/// are in the shape's inner frame.
+/// Sets a hit's upper bound of t if its solver has not, by support points in directions tilted
+/// slightly from the hit's normal. On a flat face these are its corners; on a patch with radius of
+/// curvature rho, a tilt delta gives points rho * delta from the hit and rho * delta^2 under it. If
+/// these are far, the triangle is refined as portals are (G. Snethen, "XenoCollide", 2008). The
+/// bound stays infinite if the ray passes an edge to within rounding. The ray and the normal are in
+/// the shape's inner frame.
 void enclose_ray(const PreparedShape<double>& shape, const RayNearBall<double>& near,
                  const Vec3<double>& normal, CastResult<double>& hit);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The first stage of a cast, and for nearly all rays the last: the shape's closed form in double,
-// with an error bound. A decision nearer than the bound is "in doubt", and the next stage runs
-// (after Shewchuk, "Adaptive Precision Floating-Point Arithmetic", 1997). Single rays and packets
-// share this code, so their results are bit-identical.
+// First stage of a cast, and for nearly all rays the last: the shape's closed form in double, with
+// an error bound. If the bound leaves a decision "in doubt", the next stage runs (after Shewchuk,
+// "Adaptive Precision Floating-Point Arithmetic", 1997). Single rays and packets share this code,
+// so their results are bit-identical.
 #pragma once
 
 #include "core/cast/form_line.h"
@@ -21,14 +21,14 @@ struct Filtered {
   Vec3<F> normal;
 };
 
-/// A form's normals have ordinary lengths: nothing is rescaled.
+/// Normalises a form's normal, whose length is neither tiny nor huge, without rescaling.
 template <class W>
 [[gnu::always_inline]] inline Vec3<W> unit_of_ordinary(const Vec3<W>& v) {
   using std::sqrt;
   return v * (W(1) / sqrt(W(v.squaredNorm())));
 }
 
-/// Calls exact::enter without being inlined.
+/// Calls exact::enter out of line.
 template <class W>
 [[gnu::noinline, gnu::cold]] exact::Entry<W> enter_rarely(const exact::Form& form,
                                                           const exact::Line<W>& line,
@@ -36,9 +36,9 @@ template <class W>
   return exact::enter<W>(form, line, open);
 }
 
-/// Finds where each ray enters the shape, or (`leaves`) where it leaves it for the last time. Only
-/// `open` lanes count. The shape's definition must have a form. The shape is a PreparedShape, or
-/// its substitute in lanes.
+/// Finds where each ray enters the shape or, with `leaves`, where it leaves the shape. Only `open`
+/// lanes are computed. The shape is a PreparedShape, or its equivalent in lanes; its definition
+/// must have a form.
 template <bool leaves, class F, class Placed>
 [[gnu::always_inline]] inline Filtered<F> filter(const Placed& shape, const Ray<F>& ray,
                                                  const Mask<Work<F>>& open) {
@@ -49,19 +49,19 @@ template <bool leaves, class F, class Placed>
   const exact::Form& form = shape.definition().form();
   FormLine<W> near = form_line(form, shape, ray);
 
-  // A ray that leaves enters on its way back.
+  // The exit of a ray is the entry of the reversed ray.
   exact::Line<W>& line = near.line;
   if (leaves) line.d = -line.d;
   const W first = leaves ? W(-near.end) : near.begin, last = leaves ? W(-near.begin) : near.end;
   exact::Entry<W> entry = exact::enter<W>(form, line, open & near.bounded);
 
-  // A plane that separates the line runs along it, to rounding of its own.
+  // A separating plane is parallel to the line, to rounding.
   if (any(entry.miss)) {
     const W towards = entry.normal.dot(line.d) * line.inv;
     entry.normal = select<W>(entry.miss, Vec3<W>(entry.normal - line.d * towards), entry.normal);
   }
 
-  // The line's answer is the ray's, if the ray has begun before and does not end before.
+  // The line's hit is the ray's if the ray begins before it and does not end before it.
   const W slack = near.slack;
   const W lo = entry.t - entry.e - slack, hi = entry.t + entry.e + slack;
   Filtered<F> answer;
@@ -86,7 +86,7 @@ template <bool leaves, class F, class Placed>
     }
   }
 
-  // From the form's frame to the ray's.
+  // Rotates the normal from the form's frame to the ray's.
   Vec3<W> normal = entry.normal;
   if (form.is_upside_down) normal.z() = -normal.z();
   if (form.is_scaled) normal = normal.cwiseProduct(widen<W>(form.scale));
@@ -95,19 +95,19 @@ template <bool leaves, class F, class Placed>
     using P = std::remove_cvref_t<decltype(to_inner(0, 0))>;
     normal = times<W, P>(to_inner.transpose(), normal);
   }
-  // Forms' own normals are of unit length to their rounding, which is less than float's.
+  // Forms return unit normals, to rounding that is less than float's.
   if (std::is_same_v<T, double> || form.is_scaled || shape.linear_to_inner())
     normal = unit_of_ordinary<W>(normal);
   else if (any(answer.miss))
     normal = select<W>(answer.miss, unit_of_ordinary<W>(normal), normal);
-  // A line may be so far off that its distance has no square: then the normal has no length.
+  // If the line is so far away that its squared distance overflows, the normal has no length.
   if (any(answer.miss)) answer.miss &= W(normal.squaredNorm()) > W(0);
   if (any(answer.inside)) normal = select<W>(answer.inside, Vec3<W>::Zero(), normal);
   answer.normal = {convert<T>(normal.x()), convert<T>(normal.y()), convert<T>(normal.z())};
 
   answer.t_base = answer.t_offset = answer.offset_lo = answer.offset_hi = F(0);
   if (!any(answer.hit)) return answer;
-  // t in two numbers of the ray's kind; their rounding enters the bound.
+  // Splits t into two numbers of the ray's type; the bound includes their rounding.
   answer.t_base =
       convert<T>(any(answer.inside) ? select(answer.inside, W(0), near.base) : near.base);
   const W rest = near.base - convert<double>(answer.t_base);

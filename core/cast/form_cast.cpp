@@ -6,7 +6,8 @@
 namespace minkray {
 namespace {
 
-/// Compiles the filter as one function for machines where fma is an instruction.
+/// Tag for machines with an fma instruction: the filter then inlines ray_near instead of calling
+/// it.
 struct PlaceWithFma : FormPlace {
   static constexpr bool has_fma = true;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Casting one ray at a shape whose closed form answers without a doubt: all that is read of the
-// shape's place is what the filter needs.
+// Casts one ray at a shape by its closed form alone. Reads only the part of the shape's placement
+// that the filter needs.
 #pragma once
 
 #include "core/math/ray.h"
@@ -10,10 +10,11 @@
 namespace minkray {
 
 /// Holds the part of a PreparedShape that the filter reads. The definition and the map must outlive
-/// it.
+/// the FormPlace.
 class FormPlace {
  public:
-  /// `centre` is the inner ball's, rounded; the map is null for the identity.
+  /// `centre`: centre of the inner shape's bounding ball, rounded to double. `to_inner`: null for
+  /// the identity.
   FormPlace(const ShapeDefinition<double>& definition, const Vec3<double>& centre,
             const Mat3<double>* to_inner)
       : definition_(definition), centre_(centre), to_inner_(to_inner) {}
@@ -28,7 +29,8 @@ class FormPlace {
   const Mat3<double>* to_inner_;
 };
 
-/// The centre of a plain placement, rounded: see ShapeDefinition::plain_centre.
+/// Returns the bounding ball's centre under a pose that keeps lengths (no outer map), rounded to
+/// double; ShapeDefinition::plain_centre has twice the digits.
 inline Vec3<double> rounded_plain_centre(const Vec3<double>& translation,
                                          const Mat3<double>& to_inner,
                                          const Vec3<double>& ball_centre) {
@@ -36,8 +38,8 @@ inline Vec3<double> rounded_plain_centre(const Vec3<double>& translation,
   return translation + times<double, double>(to_inner.transpose(), ball_centre);
 }
 
-/// Finds where the ray enters the shape, by its closed form: false if that is in doubt, or there is
-/// none. The same bits as cast_ray.
+/// Casts the ray by the shape's closed form. Returns false, with no valid result, if the filter is
+/// in doubt or the shape has no closed form. Results are bit-identical to cast_ray's.
 bool cast_by_form(const FormPlace& place, const Ray<double>& ray, CastResult<double>& result);
 
 }  // namespace minkray

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The ray in the frame of a shape's closed form: a line in double, moved near, and its error bound
-// (docs/forms.md, "Casts with an error bound"). F is float or double, or a packet of them; W the
-// same in double. Float rays are moved in one step without fused operations: their products are
-// exact in double, and the bits are the same everywhere. Double rays are moved by ray_near's two
-// steps.
+// A ray in the frame of a shape's closed form: a line in double whose origin is moved near the
+// form, and its error bound (docs/forms.md, "Casts with an error bound"). F is float or double, or
+// a packet of them; W is the same in double. Float rays are moved in one step without fused
+// operations: their products are exact in double, so results are bit-identical on all machines.
+// Double rays are moved in ray_near's two steps.
 #pragma once
 
 #include "core/cast/prepared_shape.h"
@@ -36,19 +36,19 @@ auto convert(const F& x) {
     return convert_lanes<To>(x);
 }
 
-/// The parameter of the ray where the line's is tau is base + (shift + tau * per).
+/// At the line's parameter tau, the ray's parameter is base + (shift + tau * per).
 template <class W>
 struct FormLine {
   exact::Line<W> line;
   Mask<W> bounded;  ///< lanes in which line.E is valid
   W base, shift, per;
-  W begin, end;  ///< the ray's, as parameters of the line
+  W begin, end;  ///< ends of the ray, as parameters of the line
   W slack;       ///< uncertainty of begin and end
 };
 
 namespace detail {
 
-/// A pose's numbers in double: one pose for all lanes, or one in each.
+/// Numbers of a pose in double: one pose for all lanes, or one per lane.
 template <class P>
 [[gnu::always_inline]] inline Vec3<Work<P>> wider(const Vec3<P>& v) {
   return {convert<double>(v.x()), convert<double>(v.y()), convert<double>(v.z())};
@@ -65,7 +65,7 @@ template <class P>
   }
 }
 
-/// The sum of the squares of all entries: a bound on how much vectors are lengthened.
+/// Sum of the squares of all entries: bounds how much the map lengthens vectors.
 template <class P>
 [[gnu::always_inline]] inline Work<P> squared_size(const Mat3<P>& m) {
   return wider(m).squaredNorm();
@@ -78,7 +78,7 @@ template <class W>
   to.z() = from.z();
 }
 
-/// Moves in one step, in numbers of twice the digits.
+/// Moves the ray in one step, in numbers with twice the digits.
 template <class F, class W, class Placed>
 [[gnu::always_inline]] inline FormLine<W> line_in_wider(const exact::Form& form,
                                                         const Placed& shape, const Ray<F>& ray) {
@@ -86,8 +86,8 @@ template <class F, class W, class Placed>
   if constexpr (requires { shape.two_fold_centre(); }) centre += wider(shape.two_fold_centre().low);
   Vec3<W> p = wider(ray.origin) - widen<W>(centre), d = wider(ray.direction);
   const W far(tolerance::form_far * tolerance::form_far * form.R * form.R);
-  // Error of the mapped origin and direction if each product of the map has an error in its last
-  // digit.
+  // Error of the mapped origin and direction, with an error in the last digit of each product of
+  // the map.
   W spread(0), spread_per(0);
   if (const auto* map = shape.linear_to_inner()) {
     const auto squared = squared_size(*map);
@@ -110,15 +110,15 @@ template <class F, class W, class Placed>
   }
   FormLine<W> near;
   const W dd = d.squaredNorm(), inv = W(1) / dd, k = -p.dot(d) * inv;
-  // Component by component: a processor reads slowly, in whole, what it has just written in parts.
+  // Component by component: reading a whole vector just after its parts were written stalls.
   near.line.s = p + d * k;
   assign(near.line.d, d);
   near.line.dd = dd;
   near.line.inv = inv;
   near.line.E = W(tolerance::form_rounding<float> * form.R);
   near.line.parallel = W(tolerance::form_parallel<float>) * dd;
-  // Directions whose squares are floats: with these, t and its bound are floats with all their
-  // digits, for shapes of ordinary size (ShapeDefinition).
+  // Least squared length of directions: above it, t and its bound are normal floats for shapes of
+  // ordinary size (ShapeDefinition).
   constexpr double least_square = std::numeric_limits<float>::min();
   near.bounded = (k * k * dd <= far) & (dd > W(least_square)) & (dd < W(1 / least_square));
   if (shape.linear_to_inner())
@@ -140,7 +140,7 @@ template <class W, class Placed>
     return ray_near(shape.centre(), ray);
 }
 
-/// Moves in two steps, each rounded once.
+/// Moves the ray in two steps, each rounded once.
 template <class W, class Placed>
 [[gnu::always_inline]] inline FormLine<W> line_in_two_steps(const exact::Form& form,
                                                             const Placed& shape,
@@ -151,13 +151,13 @@ template <class W, class Placed>
   RayNearBall<W> seen = near_of(shape, ray);
   const Mat3<P>* map = shape.linear_to_inner();
   const P inner_R(form.inner_R), distance = sqrt(P(shape.centre().squaredNorm()));
-  // Rounding of the two steps is that of positions as large as the form and its centre.
+  // The two steps round as positions do that are as large as the form and its centre.
   W reach(inner_R + distance / P(4));
   Mask<W> well_mapped(true);
   if (map) {
     const P squared = squared_size(*map), size = sqrt(squared);
     const RayNearBall<W> mapped = seen.mapped(*map);
-    // Sheared, the steps and the direction may be much longer before the map than after.
+    // With shear, the steps and the direction may be much longer before the map than after.
     const W length = seen.t_per_length / mapped.t_per_length;
     const W step = (mapped.t_shift - seen.t_shift) / seen.t_per_length;
     const W across = W(form.inner_R) / length;
@@ -202,7 +202,7 @@ template <class W, class Placed>
 
 }  // namespace detail
 
-/// The shape is a PreparedShape, or its substitute in lanes.
+/// The shape is a PreparedShape, or its equivalent in lanes.
 template <class F, class Placed>
 [[gnu::always_inline]] inline FormLine<Work<F>> form_line(const exact::Form& form,
                                                           const Placed& shape, const Ray<F>& ray) {

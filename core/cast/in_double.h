@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Casts a float ray at a float shape in double: the same query, whose numbers are all exact there
+// Casts a float ray at a float shape in double: all numbers of the query are exact in double,
 // except for the map into the shape's frame.
 #pragma once
 
@@ -21,13 +21,13 @@ inline CastObserver<double> in_double(const CastObserver<float>& observer) {
   };
 }
 
-/// `cast` is cast_ray or cast_exit in double, of a shape that has in_double().
+/// `cast` is cast_ray or cast_exit in double; the shape must have in_double().
 template <class Cast>
 CastResult<float> ask_in_double(const PreparedShape<float>& shape, const Ray<float>& ray,
                                 const CastOptions<float>& options, const Cast& cast) {
   const ShapeDefinition<double>& definition = *shape.definition().in_double();
   const PreparedShape<double> same(definition, definition.placed({}));
-  // The ray in the float shape's inner frame, with the same parameter.
+  // Maps the ray to the float shape's inner frame, with the same parameter.
   const TwoFoldVec3<float>& centre = shape.two_fold_centre();
   Vec3<double> origin =
       (ray.origin.cast<double>() - centre.high.cast<double>()) - centre.low.cast<double>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Queries and results of casts converted to another number type, to be repeated with more digits.
+// Converts queries and results of casts to another number type, to repeat casts with more digits.
 #pragma once
 
 #include "core/query/ray_near_ball.h"

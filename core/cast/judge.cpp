@@ -7,7 +7,7 @@
 namespace minkray {
 namespace {
 
-/// Proves with the question's shape and ray in double.
+/// Proves a result with the query's shape and ray in double.
 ProvenCast proven_in_double(const StageQuestion<double>& question, const CastResult<double>& answer,
                             bool before) {
   const PreparedShape<double>& shape = question.shape;
@@ -42,7 +42,7 @@ bool Judge<T>::is_sharply_proven(const CastResult<double>& answer, bool before) 
 template <class T>
 bool Judge<T>::accepts(CastResult<T> answer) {
   if (answer.status != Status::exhausted) {
-    // All directions are normals of a point.
+    // Every direction is a normal of a point.
     const bool is_point = !(question_.shape.inner_ball().radius > T(0));
     if (answer.status == Status::hit && (is_point || answer.normal.isZero(T(0))))
       answer.normal = -question_.near.r;

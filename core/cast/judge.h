@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Selects which result of a cast's stages to believe: the first that needs no proof, or has a
-// sharp one; else the first that has any.
+// Selects the result of a cast from those of its stages: the first that needs no proof or has a
+// sharp proof; if there is none, the first that has any proof.
 #pragma once
 
 #include <optional>
@@ -17,13 +17,13 @@ class Judge {
 
   /// True if no further stage has to run.
   bool accepts(CastResult<T> answer);
-  /// Does what accepts() does with an answer in wider numbers, which always has to be proven.
+  /// Same as accepts(), for a result in a wider number type, which always has to be proven.
   bool accepts_finer(const CastResult<double>& answer);
-  /// Runs last, for rims and edges that are just touched. A proof decides whether an unproven hit
-  /// is really one before the claimed point, past an edge, or else whether the last stage that
-  /// failed to converge with a plane did so at a hit.
+  /// Runs last, for rays that just touch a rim or an edge. Tries to prove an unproven hit at a
+  /// point before the claimed one, past an edge; otherwise tries to prove a hit where the last
+  /// stage stopped that gave a plane but did not converge.
   void try_once_more();
-  /// The result once a stage was accepted, or none is left; with the work of all stages.
+  /// Returns the result once a stage was accepted or none is left, with the counts of all stages.
   CastResult<T> verdict() const;
 
  private:

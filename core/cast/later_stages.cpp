@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The loop over a policy's stages, and the shell around it: the ray seen from nearby before, the
-// answer in the ray's own terms after.
+// Runs a policy's stages in a loop: moves the ray near the shape first, and converts the result to
+// the original ray afterwards.
 #include "core/cast/later_stages.h"
 
 #include <algorithm>
@@ -37,7 +37,7 @@ bool has_stage(const PreparedShape<T>& shape, const CastOptions<T>& options, Sta
   return std::find(stages.begin(), stages.end(), stage) != stages.end();
 }
 
-/// Answer, judge, next. The normal is in the inner frame.
+/// Runs stages until the judge accepts a result. The normal is in the inner frame.
 template <class T>
 CastResult<T> ask_stages(const StageQuestion<T>& question) {
   const Policy& policy = policy_of(question.options.solver, kind_of(question.shape.definition()));
@@ -67,7 +67,7 @@ CastResult<T> ask_stages(const StageQuestion<T>& question) {
   return judge.verdict();
 }
 
-/// The stages' answer for all that the ray may be.
+/// Runs the stages for all rays within the ray's uncertainty.
 template <class T>
 CastResult<T> ask_stages_about_place(const StageQuestion<T>& question) {
   const PreparedShape<T>& shape = question.shape;
@@ -83,11 +83,11 @@ CastResult<T> ask_stages_about_place(const StageQuestion<T>& question) {
   });
 }
 
-/// The answer in the outer frame; it is exhausted where the numbers' range was left.
+/// Converts the result to the outer frame; exhausted if it exceeds the range of numbers.
 template <class T>
 CastResult<T> in_outer_frame(const PreparedShape<T>& shape, CastResult<T> result) {
   result.normal = shape.normal_to_outer(result.normal);
-  // A direction so short that the hit's t is no number of T.
+  // The direction is so short that the hit's t exceeds the range of T.
   if (result.status == Status::hit && !std::isfinite(result.t())) result.status = Status::exhausted;
   const bool no_plane = result.status == Status::miss && result.normal.isZero(T(0));
   if (no_plane || !has_numbers<T>(result, result.normal)) {
@@ -97,9 +97,9 @@ CastResult<T> in_outer_frame(const PreparedShape<T>& shape, CastResult<T> result
   return result;
 }
 
-/// A shape without size has no scale of its own: where the ray passes it by nearer than lengths
-/// have squares, and by more than what it lies at is rounded by, all lengths are multiplied by a
-/// power of two.
+/// A point has no scale of its own: if the ray passes it so closely that squares of lengths
+/// underflow, but further away than its position's rounding, all lengths are multiplied by a power
+/// of two.
 template <class T>
 RayNearBall<T> with_squares(const PreparedShape<T>& point, RayNearBall<T> near) {
   const T nearest = std::clamp(T(0), near.lambda_min, near.lambda_max);
@@ -117,7 +117,7 @@ RayNearBall<T> with_squares(const PreparedShape<T>& point, RayNearBall<T> near) 
   return near;
 }
 
-/// The ray in the inner frame, with all its digits wherever it comes from.
+/// Maps the ray to the inner frame without losing digits, however distant its origin.
 template <class T>
 RayNearBall<T> near_inner(const PreparedShape<T>& shape, const Ray<T>& ray) {
   RayNearBall<T> near = shape.to_inner(ray);
@@ -126,7 +126,8 @@ RayNearBall<T> near_inner(const PreparedShape<T>& shape, const Ray<T>& ray) {
   return shape.inner_ball().radius > T(0) ? near : with_squares(shape, near);
 }
 
-/// Exhausted, if the ray has lost its digits even so: but for misses by more than that.
+/// Returns `exhausted` if the ray has lost its digits even so, except for misses by more than the
+/// loss.
 template <class T>
 void end_far_cast(const PreparedShape<T>& shape, const RayNearBall<T>& near,
                   CastResult<T>& result) {
@@ -182,8 +183,8 @@ CastResult<float> cast_in_double(const PreparedShape<float>& shape, const Ray<fl
   return ask_in_double(shape, ray, options, cast);
 }
 
-/// True if rounding across a hit's plane is so much longer along the ray that the cast is repeated
-/// in double instead of proven.
+/// True if a hit's plane is so steep that rounding along the ray is large: the cast is then
+/// repeated in double instead of proven.
 template <class T>
 bool is_steep_in_float(const StageQuestion<T>& question, const CastResult<T>& answer) {
   const ShapeDefinition<T>& definition = question.shape.definition();

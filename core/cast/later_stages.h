@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT
-// Later stages of a cast, for shapes without a form or where the filter (core/cast/filter.h) is in
-// doubt: bounds, models, the GJK ray cast, and both with more digits.
+// Later stages of a cast, for shapes without a form and for rays that leave the filter
+// (core/cast/filter.h) in doubt: bounds, models, the GJK ray cast, and both with more digits.
 #pragma once
 
 #include "core/cast/cast.h"
 
 namespace minkray {
 
-/// cast_ray without the filter.
+/// Same as cast_ray, without the filter.
 template <class T>
 CastResult<T> cast_by_later_stages(const PreparedShape<T>& shape, const Ray<T>& ray,
                                    const CastOptions<T>& options, const CastObserver<T>& observer);
 
-/// cast_exit without the filter.
+/// Same as cast_exit, without the filter.
 template <class T>
 CastResult<T> exit_by_later_stages(const PreparedShape<T>& shape, const Ray<T>& ray,
                                    const CastOptions<T>& options);
 
-/// Adds the upper bound to a hit that a packet found, as cast_by_later_stages does.
+/// Adds the upper bound of t to a hit that a packet found, as cast_by_later_stages does.
 void bound_hit(const PreparedShape<double>& shape, const Ray<double>& ray,
                CastResult<double>& result);
 

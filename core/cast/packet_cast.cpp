@@ -81,7 +81,7 @@ void cast_packet(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBi
       bound_hit(shape, rays.ray(lane), result);
       answers.set(lane, result);
     }
-  // Lanes in which the filter is in doubt or the model exhausted are cast one by one.
+  // Lanes that the filter leaves in doubt, or whose model does not converge, are cast one by one.
   const LaneBits open = lanes & ~(answers.hit | answers.inside | answers.miss);
   if (!open) return;
   for (int lane = 0; lane < packet_lanes<T>; ++lane)

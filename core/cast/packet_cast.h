@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Casting several rays at one shape at once: 8 in float, 4 in double. The answers are those of
-// cast_ray, bit for bit.
+// Casts several rays at one shape at once: 8 in float, 4 in double. Results are bit-identical to
+// those of cast_ray.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace minkray {
 
-/// A packet has as many as fill 32 bytes.
+/// Number of lanes of a packet: as many as fill 32 bytes.
 template <class T>
 inline constexpr int packet_lanes = static_cast<int>(32 / sizeof(T));
 
@@ -40,16 +40,16 @@ struct alignas(32) RayPacket {
   }
 };
 
-/// A bit for each lane, the lowest for lane 0.
+/// One bit per lane; the lowest bit is lane 0.
 using LaneBits = std::uint32_t;
 template <class T>
 inline constexpr LaneBits all_lanes = (LaneBits(1) << packet_lanes<T>)-1;
 
-/// CastResult, lane by lane. Lanes not requested hold nothing of meaning, nor do the numbers of t
-/// in lanes that miss.
+/// CastResult, lane by lane. Lanes that were not requested are undefined, and so are the numbers of
+/// t in lanes that miss.
 template <class T>
 struct alignas(32) CastPacket {
-  LaneBits hit = 0, inside = 0, miss = 0;  ///< a requested lane that has none of them: exhausted
+  LaneBits hit = 0, inside = 0, miss = 0;  ///< a requested lane with none of these is exhausted
   PacketNumbers<T> t_base, t_offset, offset_lo, offset_hi;
   std::array<PacketNumbers<T>, 3> normal;
   PacketNumbers<T> supports;  ///< also the number of iterations
@@ -68,7 +68,7 @@ struct alignas(32) CastPacket {
 enum class InstructionSet : unsigned char { sse2, avx2 };
 InstructionSet best_instruction_set();
 
-/// cast_ray for the lanes requested. The instruction set must be one that the machine has.
+/// Same as cast_ray, for the requested lanes. The machine must have the instruction set.
 template <class T>
 void cast_packet(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
                  CastPacket<T>& answers, InstructionSet set = best_instruction_set());

@@ -7,13 +7,13 @@
 
 namespace minkray {
 
-/// Shapes with a model only. Lanes that exhaust it are neither hit, inside nor miss.
+/// Requires a shape with a model. Lanes that do not converge are neither hit, inside nor miss.
 void packet_kernel_sse2(const PreparedShape<float>& shape, const RayPacket<float>& rays,
                         LaneBits lanes, CastPacket<float>& answers);
 void packet_kernel_sse2(const PreparedShape<double>& shape, const RayPacket<double>& rays,
                         LaneBits lanes, CastPacket<double>& answers);
 
-/// Only on machines that have AVX2 and FMA.
+/// Requires a machine with AVX2 and FMA.
 void packet_kernel_avx2(const PreparedShape<float>& shape, const RayPacket<float>& rays,
                         LaneBits lanes, CastPacket<float>& answers);
 void packet_kernel_avx2(const PreparedShape<double>& shape, const RayPacket<double>& rays,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The body of the packet casts. MINKRAY_PACKET_KERNEL is the function's name. Everything else here
-// has the type of the lanes, and so the instruction set, in its name: see core/math/wide.h.
+// The body of the packet casts. MINKRAY_PACKET_KERNEL is the function's name. All other names
+// include the type of the lanes, and so the instruction set: see core/math/wide.h.
 #include "core/cast/packet_kernel.h"
 #include "core/cast/packet_lanes.h"
 #include "core/math/wide.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Parts of packets as the kernels read them. All names have the type of the lanes in them, and so
-// the instruction set: see core/math/wide.h.
+// Converts packets to lanes for the kernels. All names depend on the lanes' type, and so on the
+// instruction set: see core/math/wide.h.
 #pragma once
 
 #include "core/cast/packet_cast.h"

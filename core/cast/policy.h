@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Stages of a cast, in order, and which of their results have to be proven: one table. A stage
-// runs if those before it failed to converge, or if their results could not be proven.
+// Table of the stages of a cast, in order, and of the results that have to be proven. A stage runs
+// if all stages before it failed to converge, or their results could not be proven.
 #pragma once
 
 #include <array>
@@ -9,13 +9,13 @@
 
 namespace minkray {
 
-/// A stage of a cast; docs/rays.md explains what each of them is good for.
+/// A stage of a cast; docs/rays.md explains them.
 enum class Stage : unsigned char {
   none,
   filter,          ///< the closed form, in double, with an error bound (filter.h)
-  bounds,          ///< the box of a miss
-  in_double,       ///< the shape and the ray in double, which is final; rays in double skip it
-  model,           ///< the hull of the features that support calls have shown (core/model)
+  bounds,          ///< the bounding box: misses only
+  in_double,       ///< the shape and the ray in double; always final. Rays in double skip it
+  model,           ///< the hull of the features that support calls have found (core/model)
   gjk,             ///< the GJK ray cast
   support_portal,  ///< the model of a polytope, whatever the shape
   finer,           ///< the GJK ray cast with more digits
@@ -24,14 +24,14 @@ enum class Stage : unsigned char {
   algorithm_1,     ///< the paper's slow reference
 };
 
-/// Hits that must be proven before they are returned, where shapes may have corners.
+/// Hits that must be proven before they are returned, for shapes that may have corners.
 enum class Proof : unsigned char {
   none,
-  steep_hits,  ///< those whose plane is nearly along the ray; float rays are cast in double
+  steep_hits,  ///< hits whose plane is nearly parallel to the ray; float rays are cast in double
   all,
 };
 
-/// Kinds of shapes, as bits: each shape is of one kind.
+/// Kinds of shapes, as bits; each shape has one kind.
 using ShapeKinds = unsigned;
 namespace shape_kind {
 inline constexpr ShapeKinds with_form = 1;   ///< has a closed form
@@ -65,7 +65,8 @@ inline constexpr std::array policies = {
            with_form,
            steep,
            {filter, in_double, bounds, model, gjk, support_portal, finer}},
-    // Flat slivers in float are cast in double: their models lose as many digits as they are thin.
+    // Flat slivers in float are cast in double: the thinner they are, the more digits their models
+    // lose.
     Policy{
         Kind::automatic, with_model, steep, {in_double, bounds, model, gjk, support_portal, finer}},
     Policy{Kind::automatic, osculated, steep, {gjk, model, support_portal, finer}},
@@ -86,7 +87,7 @@ inline constexpr std::array policies = {
 
 }  // namespace policy_rows
 
-/// The row of the table for a solver and a shape.
+/// Returns the table's row for a solver and a shape.
 constexpr const Policy& policy_of(SolverKind solver, ShapeKinds shape) {
   for (const Policy& policy : policy_rows::policies)
     if (policy.solver == solver && (policy.shapes & shape)) return policy;

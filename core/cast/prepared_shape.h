@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A shape prepared for many casts: affine maps around it are pulled out, so that the solver works
-// in the innermost frame with as few and as exact operations as possible, and the bounding ball is
-// computed once.
+// A shape prepared for many casts: outer affine maps are removed, so that solvers work in the
+// innermost frame with few and accurate operations, and the bounding ball is computed once.
 #pragma once
 
 #include <memory>
@@ -13,7 +12,7 @@
 namespace minkray {
 
 /// A definition and a pose. "Inner" is the frame of the definition's inner shape, "outer" the frame
-/// the rays come in.
+/// of the rays.
 template <class T>
 class PreparedShape {
  public:
@@ -23,7 +22,7 @@ class PreparedShape {
   explicit PreparedShape(Shape<T> shape, const Affine<T>& pose = {})
       : PreparedShape(std::make_shared<const Definition>(std::move(shape)), pose) {}
 
-  /// Others may share the definition.
+  /// Shares the definition.
   PreparedShape(std::shared_ptr<const Definition> definition, const Affine<T>& pose)
       : definition_(std::move(definition)) {
     const auto placement = definition_->placed(pose);
@@ -33,15 +32,15 @@ class PreparedShape {
     loss_ = placement.loss;
   }
 
-  /// Does not own the definition either, which must outlive it.
+  /// Refers to the definition, which must outlive the prepared shape.
   PreparedShape(const Definition& definition, const typename Definition::Placement& placement)
       : PreparedShape(definition, placement.centre,
                       placement.is_rigid_identity ? nullptr : &placement.to_inner, placement.loss) {
   }
 
-  /// This lasts for a moment, and the definition outlives it; no references are counted: it is what
-  /// worlds of millions make for each cast. `to_inner` is null for the identity; `loss` is
-  /// Placement's.
+  /// For one cast: refers to the definition, which must outlive the prepared shape, without
+  /// counting references. Large worlds make one per cast. `to_inner` is null for the identity;
+  /// `loss` is Placement's.
   PreparedShape(const Definition& definition, const TwoFoldVec3<T>& centre, const Mat3<T>* to_inner,
                 T loss)
       : definition_(std::shared_ptr<const Definition>(), &definition),
@@ -53,7 +52,7 @@ class PreparedShape {
 
   const Definition& definition() const { return *definition_; }
   const std::shared_ptr<const Definition>& shared_definition() const { return definition_; }
-  /// The ball's centre in the outer frame: as forms take it, and all of it.
+  /// Centre of the ball in the outer frame: rounded, as forms use it, and with all digits.
   const Vec3<T>& centre() const { return centre_.high; }
   const TwoFoldVec3<T>& two_fold_centre() const { return centre_; }
   /// Null for the identity.
@@ -64,8 +63,8 @@ class PreparedShape {
   /// Half extents of the inner shape's axis-aligned bounds.
   const Vec3<T>& inner_half_extents() const { return definition_->inner_half_extents(); }
 
-  /// True if the centre is so far from the outer frame's origin, in radii, that a float ray loses
-  /// digits when it is moved there.
+  /// True if the centre is far from the outer frame's origin, in radii: moving a float ray there
+  /// loses digits.
   bool is_far_out() const {
     if constexpr (std::is_same_v<T, double>) return false;
     const T size = is_rigid_identity_ ? T(1) : to_inner_.cwiseAbs().maxCoeff();
@@ -76,22 +75,22 @@ class PreparedShape {
   /// Model of the shape for the solvers on jets.
   ModelKind model() const { return definition_->model(); }
 
-  /// The ray in the inner frame, relative to the ball's centre; W is T or a packet of it.
+  /// Maps the ray to the inner frame, relative to the ball's centre; W is T or a packet of it.
   template <class W>
   RayNearBall<W> to_inner(const Ray<W>& ray) const {
     RayNearBall<W> near = ray_near<W>(centre_, ray);
     map_to_inner(near);
-    return near;  // not copied: a processor reads slowly what it has just written in parts
+    return near;  // not copied: reading a whole just after its parts were written stalls
   }
 
-  /// Does what to_inner does for one ray from anywhere.
+  /// Same as to_inner, for one ray with a distant origin.
   RayNearBall<T> to_inner_from_afar(const Ray<T>& ray) const {
     RayNearBall<T> near = ray_near_from_afar(centre_, ray);
     map_to_inner(near);
     return near;
   }
 
-  /// The ray's line in the inner frame, from the centre of the inner bounds.
+  /// Maps the ray's line to the inner frame, relative to the centre of the inner bounds.
   template <class W>
   [[gnu::always_inline]] LineFromCentre<W> line_to_inner(const Ray<W>& ray) const {
     using std::abs;
@@ -108,13 +107,13 @@ class PreparedShape {
                 times(map_sizes, d));
   }
 
-  /// An inner normal in the outer frame, of unit length.
+  /// Maps an inner normal to a unit normal in the outer frame.
   template <class W>
   Vec3<W> normal_to_outer(const Vec3<W>& normal) const {
     return is_rigid_identity_ ? normal : unit<W>(times<W, T>(to_inner_.transpose(), normal));
   }
 
-  /// The other way, of any length; for hints, not for hot code.
+  /// Maps an outer normal to an inner one of any length; for hints, not for hot code.
   Vec3<T> normal_to_inner(const Vec3<T>& normal) const {
     return is_rigid_identity_ ? normal : Vec3<T>(to_inner_.transpose().inverse() * normal);
   }
@@ -127,7 +126,7 @@ class PreparedShape {
     near.lambda_max += W(end_slack());
   }
 
-  /// A ray that ends on the surface hits it, however the two were rounded.
+  /// Tolerance at a ray's end: a ray that ends on the surface hits it in spite of rounding.
   T end_slack() const { return tolerance::end_slack<T> * inner_ball().radius; }
 
   std::shared_ptr<const Definition> definition_;

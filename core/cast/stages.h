@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The stages of a cast (policy.h) after its filter and its bounds: each by itself, for a ray in the
-// inner frame. Their normals are in that frame, and their paths are named.
+// Stages of a cast (policy.h) after the filter and the bounds, one function each, for a ray in the
+// inner frame. Results have normals in that frame, and their `path`.
 #pragma once
 
 #include "core/cast/cast.h"
@@ -25,11 +25,11 @@ CastResult<T> ask_model(Stage stage, const StageQuestion<T>& question);
 template <class T>
 CastResult<T> ask_gjk(Stage stage, const StageQuestion<T>& question);
 
-/// Stage::finer: in double, or in long double; its answer's t_base is near.t_base.
+/// Stage::finer, in double or in long double. The result's t_base is near.t_base.
 CastResult<double> ask_finer(const StageQuestion<float>& question);
 CastResult<double> ask_finer(const StageQuestion<double>& question);
 
-/// These are the two above with an observer, not for casts; they are compiled by themselves.
+/// Same as the two above, with an observer; compiled separately, not used by casts.
 template <class T>
 CastResult<T> ask_model_observed(Stage stage, const StageQuestion<T>& question);
 template <class T>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Casts of rays whose place relative to the shape is known to a length only (RayNearBall::loss):
-// answers that hold for every ray that is no further off. Along a ray, entry into a convex shape
-// is a convex function of where the ray passes: if rays through the corners of a triangle enter
-// it, so do all rays between them, no later than the latest of those three.
+// Casts of rays whose position relative to the shape has an error of up to RayNearBall::loss:
+// results hold for every ray within that distance. The parameter at which parallel rays enter a
+// convex shape is a convex function of their position: if rays through the corners of a triangle
+// enter the shape, so do all rays between them, no later than the latest of the three.
 #pragma once
 
 #include <algorithm>
@@ -12,8 +12,7 @@
 
 namespace minkray {
 
-/// The rays around one, in a triangle that holds all that are no further off than the loss; or
-/// moved by twice the loss along themselves.
+/// Three rays parallel to one, at the corners of a triangle that contains all rays within the loss.
 template <class T>
 class RaysAround {
  public:
@@ -22,7 +21,8 @@ class RaysAround {
   explicit RaysAround(const RayNearBall<T>& near) : near_(near), frame_(near.r) {}
 
   RayNearBall<T> operator[](int corner) const {
-    // The inscribed circle's radius is half the circumscribed one's; some more for rounding.
+    // The circumscribed circle has twice the radius of the inscribed one; 2.125 allows for
+    // rounding.
     constexpr T to_corner = T(2.125), half = T(0.5), sine = T(0.8660254037844386);
     const T cosines[count] = {T(1), -half, -half}, sines[count] = {T(0), sine, -sine};
     RayNearBall<T> moved = near_;
@@ -31,14 +31,14 @@ class RaysAround {
     return moved;
   }
 
-  /// One that begins later and ends earlier by the loss.
+  /// A corner's ray that begins later and ends earlier by the loss.
   RayNearBall<T> shorter(int corner) const {
     RayNearBall<T> moved = (*this)[corner];
     moved.lambda_min += near_.loss;
     moved.lambda_max -= near_.loss;
     return moved;
   }
-  /// One that begins earlier or later by the loss (sign = -1 or 1).
+  /// A corner's ray that begins earlier or later by the loss (sign = -1 or 1).
   RayNearBall<T> beginning(int corner, int sign) const {
     RayNearBall<T> moved = (*this)[corner];
     moved.lambda_min += T(sign) * near_.loss;
@@ -50,8 +50,8 @@ class RaysAround {
   RayFrame<T> frame_;
 };
 
-/// `ask(near)` casts the ray as if its place were exact. Exhausted, where rays within the loss are
-/// answered otherwise.
+/// Casts by `ask(near)`, which takes the ray's position as exact. Returns `exhausted` if rays
+/// within the loss may have another status.
 template <class T, class Ask>
 CastResult<T> ask_within_loss(const PreparedShape<T>& shape, const RayNearBall<T>& near,
                               const Ask& ask) {
@@ -73,7 +73,7 @@ CastResult<T> ask_within_loss(const PreparedShape<T>& shape, const RayNearBall<T
   const RaysAround<T> around(near);
 
   if (found.status == Status::miss) {
-    // The plane must keep off by more than the loss where the shape may be.
+    // The plane must be further from the ray than the loss wherever the shape may be.
     const T reach = T(2) * (ball.radius + near.loss);
     const auto height_at = [&](T lambda) {
       return found.normal.dot(near.s + near.r * std::clamp(lambda, -reach, reach));
@@ -90,7 +90,7 @@ CastResult<T> ask_within_loss(const PreparedShape<T>& shape, const RayNearBall<T
     return found;
   }
   if (found.status == Status::hit) {
-    // Rays that were turned round are counted down.
+    // For reversed rays t decreases along the ray.
     const T sign = near.t_per_length < T(0) ? T(-1) : T(1);
     const T first = std::min(sign * found.offset_lo, sign * found.t_offset);
     T latest = sign * found.t_offset;
@@ -100,8 +100,8 @@ CastResult<T> ask_within_loss(const PreparedShape<T>& shape, const RayNearBall<T
       latest = std::max(latest, sign * other.offset_hi);
     }
     if (!(latest < std::numeric_limits<T>::infinity())) return give_up();
-    // A convex function is no further below its value in the middle than it is above it around.
-    // And the ray may lie further along itself.
+    // A convex function falls below its value in the middle by at most what it rises around it. The
+    // ray may also be displaced along itself.
     const T along = near.loss * std::abs(near.t_per_length);
     found.offset_hi = sign * (latest + along);
     found.offset_lo = sign * (T(2) * first - latest - along);

@@ -62,7 +62,7 @@ class SumsCast {
   struct Look {
     Vec3<W> g = Vec3<W>::Zero();  ///< the support point, relative to the sum's centre
     W h = W(0);                   ///< support function relative to the sum's centre
-    Mat3<W> H = Mat3<W>::Zero();  ///< derivative of g by the direction
+    Mat3<W> H = Mat3<W>::Zero();  ///< derivative of g with respect to the direction
     Mat3<W> G = Mat3<W>::Zero();  ///< sum of g g^T/h of its summands
   };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Common part of the closed forms of pairs of cores: the result whose bounds are one number.
+// Common part of the closed forms of pairs of cores: a result whose bounds are equal.
 #pragma once
 
 #include "core/math/length.h"
@@ -18,7 +18,7 @@ inline CoreDistance closed_answer(double distance, const Vec3<double>& axis, con
   return result;
 }
 
-/// c's direction; where there is none, `otherwise`.
+/// Result for the vector c from a to B's point. Its axis is c's direction; `otherwise` if c is 0.
 inline CoreDistance closed_between(const Vec3<double>& a, const Vec3<double>& c,
                                    const Vec3<double>& otherwise) {
   const Vec3<double> direction = unit<double>(c);

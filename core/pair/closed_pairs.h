@@ -10,26 +10,27 @@ inline bool is_line(const ShapeCore& core) {
   return core.kind == CoreKind::point || core.kind == CoreKind::segment;
 }
 
-/// Segments from -p to p, and from x - q to x + q; either may be a point. Both bounds are the
-/// distance.
+/// Distance of the segments from -p to p and from x - q to x + q; either may be a point. Both
+/// bounds are the distance.
 CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& x);
 
 inline bool is_solid(const ShapeCore& core) {
   return core.kind == CoreKind::box || core.kind == CoreKind::disks;
 }
 
-/// A box or disks against a point p, in the solid's frame: both bounds are the distance, negative
-/// inside. `axis` is the direction of the least translation of the point that separates.
+/// Signed distance of a box, or of the hull of two disks, from a point p in its frame; negative
+/// inside. Both bounds are the distance. `axis` is the direction of the shortest translation of the
+/// point that separates them.
 CoreDistance between_solid_and_point(const ShapeCore& solid, const Vec3<double>& p);
 
 enum class BoxOverlap : unsigned char {
   none,
-  without_points,  ///< a and c were not found: an edge or a face lies in the plane of contact
+  without_points,  ///< a and c are not set: an edge or a face lies in the contact plane
   with_points,
 };
 
-/// Two boxes that overlap: the least overlap of 15 axes is the penetration depth
-/// (S. Gottschalk et al., "OBBTree", 1996).
+/// Penetration depth of two overlapping boxes: the least overlap along 15 axes (S. Gottschalk et
+/// al., "OBBTree", 1996).
 BoxOverlap box_overlap(const CorePair& pair, CoreDistance& found);
 
 }  // namespace minkray

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A shape prepared for queries on pairs, once: no pair needs to be prepared. And the relative pose
-// of two of them: here all pairs are brought near, so that solvers handle numbers of the bodies'
-// size and of their distance only.
+// A shape prepared once for all queries on pairs; and the relative pose of two shapes, so that
+// solvers only handle numbers of the magnitude of the bodies' sizes and their distance.
 #pragma once
 
 #include "core/derived/convert.h"
@@ -15,7 +14,7 @@ namespace minkray {
 /// Immutable and cheap to copy. All numbers are doubles, even for shapes in float.
 class ContactShape {
  public:
-  /// `map` leads from the shape's frame to the body's; any invertible map.
+  /// `map` maps the shape's frame to the body's; it may be any invertible map.
   explicit ContactShape(const Shape<double>& shape, const Affine<double>& map = {})
       : ContactShape(core_and_radius(shape, map)) {}
   explicit ContactShape(CoreAndRadius core_and_radius)
@@ -32,18 +31,18 @@ class ContactShape {
   TwoFoldVec3<double> exact_middle() const {
     return {core_and_radius_.middle, core_and_radius_.middle_low};
   }
-  /// True if the core's frame is turned, and if its middle is not the body's origin: most are
-  /// neither, which saves half of the work of placing a pair.
+  /// is_turned(): the core's frame is rotated; is_moved(): its middle is not the body's origin.
+  /// Most shapes are neither, which saves half of the work of placing a pair.
   bool is_turned() const { return is_turned_; }
   bool is_moved() const { return is_moved_; }
   /// Distance of the middle from the body's origin.
   double offset() const { return offset_; }
-  /// Middles further out than this, in the body's size, are placed in twice the digits.
+  /// True if the middle is so far from the body's origin that it is placed with twice the digits.
   bool is_far_out() const {
     constexpr double far = 4;
     return offset_ > far * ball_radius();
   }
-  /// The ball of this radius around the middle holds the shape.
+  /// Radius of a ball around the middle that contains the shape.
   double ball_radius() const { return core_and_radius_.core.ball + core_and_radius_.core.radius; }
 
  private:
@@ -73,28 +72,28 @@ inline Vec3<double> middle_in_world(const ContactShape& shape, const Affine<doub
   return pose(shape.middle());
 }
 
-/// `pose` is rigid: its linear part is a rotation, or a reflection, to rounding.
+/// `pose` must be rigid: its linear part is a rotation or a reflection, to rounding.
 PlacedCore placed(const ContactShape& shape, const Affine<double>& pose);
 
-/// The middle in the world in twice the digits, and by how much it may be off.
+/// The middle in the world with twice the digits, and its error bound.
 struct PlacedMiddle {
   TwoFoldVec3<double> at;
   double loss = 0;
 };
 PlacedMiddle placed_middle(const ContactShape& shape, const Affine<double>& pose);
 
-/// From one point to another, along the axes of the world, and by how much that may be off: what
-/// the points' places have cost, and nothing that is an epsilon of the vector itself.
+/// Vector from one point to another in world axes, and its error bound: the rounding of the points'
+/// positions, without the rounding of the vector itself.
 struct Between {
   Vec3<double> x;
   double loss = 0;
 };
 
-/// From A's middle to B's. The two places are subtracted before anything is rounded.
+/// Vector from A's middle to B's. The positions are subtracted before they are rounded.
 Between between_middles(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                         const Affine<double>& pose_b);
 
-/// B as A sees it. `turn_a` is A's turn_in_world().
+/// Both cores in A's frame. `turn_a` is A's turn_in_world().
 CorePair pair_of(const ContactShape& a, const Affine<double>& pose_a, const Mat3<double>& turn_a,
                  const ContactShape& b, const Affine<double>& pose_b);
 CorePair pair_of(const ContactShape& a, const Mat3<double>& turn_a, const ContactShape& b,

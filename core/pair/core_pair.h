@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Two cores A and B in A's frame, and the queries of the solvers on C, all differences b - a of a
-// point of B and one of A: the distance of the shapes is that of C from the origin, and where they
-// overlap, their penetration depth is how deep the origin lies in C. Either way it is, signed, the
-// most that n.c can be kept above over all c of C, over all unit vectors n.
+// Two cores A and B in A's frame, and the solvers' queries on C, the set of all b - a with b in B
+// and a in A. The distance of the cores is that of C from the origin; if they overlap, their
+// penetration depth is the depth of the origin in C. The signed distance is the maximum over unit
+// vectors n of the minimum of n.c over c in C.
 #pragma once
 
 #include "core/pair/core_support.h"
@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// Sum of all roundings of a query, relative to the sizes and the middles' distance.
+/// Bound of all rounding in a query, relative to the sizes plus the distance of the middles.
 inline constexpr double core_rounding = 16 * std::numeric_limits<double>::epsilon();
 
 struct CorePair {
@@ -19,9 +19,9 @@ struct CorePair {
   const ShapeCore& b;
   Mat3<double> turn;  ///< from B's frame to A's
   Vec3<double> x;     ///< B's middle in A's frame
-  double loss = 0;    ///< by how much that may be off: what the bodies' places have cost
+  double loss = 0;    ///< error bound of x: rounding of the bodies' positions
 
-  /// Radii of balls around the middles: what roundings are relative to.
+  /// Sum of the radii of balls around the middles; rounding is relative to it.
   double size() const { return a.ball + b.ball; }
   double radii() const { return a.radius + b.radius; }
   /// Error bound of a gap between the grown cores.
@@ -37,7 +37,7 @@ struct DifferencePoint {
   int feature_b;
 };
 
-/// The point of C least far along d: b is furthest along -d, a along d.
+/// Returns the point of C that is least far along d: b is furthest along -d, a along d.
 template <CoreKind A, CoreKind B>
 inline DifferencePoint nearest_along(const CorePair& pair, const Vec3<double>& d) {
   const CoreSupport a = support_of_core<A>(pair.a, d),
@@ -51,22 +51,22 @@ inline DifferencePoint nearest_along(const CorePair& pair, const Vec3<double>& d
 }
 
 enum class CoreStatus : unsigned char {
-  separated,    ///< the plane `axis` lies between the two
+  separated,    ///< a plane with the normal `axis` separates the cores
   overlapping,  ///< a common point was found
-  unsettled,    ///< rounding ended the search: the bounds hold, but need not meet
+  unsettled,    ///< rounding ended the search: the bounds hold, but may not meet
 };
 
-/// The distance of two cores. The bounds do not allow for rounding.
+/// Distance of two cores. The bounds do not include rounding.
 struct CoreDistance {
   CoreStatus status = CoreStatus::unsettled;
-  double lower = -std::numeric_limits<double>::infinity();  ///< axis.c is no less
+  double lower = -std::numeric_limits<double>::infinity();  ///< minimum of axis.c
   double upper = std::numeric_limits<double>::infinity();   ///< |c| of a point of C
   Vec3<double> axis = Vec3<double>::Zero();                 ///< of unit length, from A to B
-  Vec3<double> a = Vec3<double>::Zero();                    ///< a point of A, in its frame,
-  Vec3<double> c = Vec3<double>::Zero();                    ///< and from it to a point of B
-  int supports = 0;                                         ///< of C
-  bool is_exhausted = false;  ///< the budget ended the search, before the bounds met
-  /// True for overlapping cores if no other direction is nearly as good: see deeper_by().
+  Vec3<double> a = Vec3<double>::Zero();                    ///< a point of A, in its frame
+  Vec3<double> c = Vec3<double>::Zero();                    ///< vector from a to a point of B
+  int supports = 0;                                         ///< support points of C computed
+  bool is_exhausted = false;  ///< the search ran out of support points before the bounds met
+  /// True if the cores overlap and no other direction is nearly as good: see deeper_by().
   bool has_one_direction = false;
 
   void raise_lower(double bound, const Vec3<double>& unit_axis) {
@@ -76,23 +76,24 @@ struct CoreDistance {
   }
 };
 
-/// Distance that B is moved in along the axis, to find other directions of the depth: each of them
-/// that leans by an angle from the axis gains by its cosine only. A depth that has gained all but
-/// `leaning` of the way has one direction.
+/// Distance by which B is moved in along the axis to find other directions of the depth: a
+/// direction at an angle to the axis only gains the cosine of the distance. If the depth gains at
+/// least 1 - `leaning` of the distance, its direction is unique.
 inline double deeper_by(const CorePair& pair) {
   constexpr double step = 1e-4;  // of the sizes
   return step * (pair.size() + pair.radii());
 }
-inline constexpr double leaning = 1e-4;  ///< 1 - cos of the angle between two directions of note
+/// Least 1 - cos of the angle between two different directions.
+inline constexpr double leaning = 1e-4;
 
-/// When a search may end.
+/// Criteria for the end of a search.
 struct CoreSearch {
   double gap = 1e-12;  ///< upper - lower, relative to the size
-  /// Once the distance is known to be above `apart`, the query ends. Infinite: never.
+  /// The search ends once the distance is proven to be above `apart`.
   double apart = std::numeric_limits<double>::infinity();
   int max_turns = 200;
   bool may_slide = true;  ///< curved surfaces are searched to second order
-  /// Start of the search, if it is not empty; receives its end.
+  /// If not null: the search starts from it, unless it is empty, and stores its final state in it.
   PairMemory* memory = nullptr;
 };
 

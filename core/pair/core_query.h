@@ -7,7 +7,7 @@
 
 namespace minkray {
 
-/// Points this near to each other, in sizes, are common.
+/// Points this close to each other, in sizes, count as one common point.
 inline constexpr double common_point = 1e-15;
 
 template <CoreKind A, CoreKind B>
@@ -23,7 +23,7 @@ struct CoreQuery {
     return nearest_along<A, B>(pair, d);
   }
 
-  /// The answer is this point of A, and c from it. Always true.
+  /// Sets the result: a point of A, and the vector c from it. Returns true.
   bool end_at(CoreStatus status, const Vec3<double>& a, const Vec3<double>& c) {
     result.status = status;
     result.a = a;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Support mapping of a core for the solvers: its support points, each with the feature of the
-// surface that it lies on (a vertex, a rim, an ellipsoid); where a feature's support point slides
-// when the direction turns; and how fast. Written once for every kind, so that the kinds of a pair
-// may be known at compile time; `CoreKind::other` is a kind that is looked up in each call.
+// Support mapping of a core for the solvers: support points, each with its feature of the surface
+// (a vertex, a rim, an ellipsoid); a given feature's support point; and its derivative with respect
+// to the direction. Templates of the kind, so that solvers can be compiled for a pair of kinds;
+// `CoreKind::other` looks up the kind in each call.
 #pragma once
 
 #include "core/pair/hull_scan.h"
@@ -36,12 +36,12 @@ auto with_core_kind(CoreKind kind, F&& f) {
   return f.template operator()<CoreKind::other>();
 }
 
-/// True if features of such a core slide, in a way that `add_curvature` supports.
+/// True if support points slide on features of such a core, as `add_curvature` computes.
 constexpr bool slides(CoreKind kind) {
   return kind == CoreKind::disks || kind == CoreKind::ellipsoid;
 }
 
-/// The feature's point furthest along d, of any length but zero.
+/// The feature's point furthest along d, which may have any length except zero.
 template <CoreKind K>
 inline Vec3<double> point_of_feature(const ShapeCore& core, int feature, const Vec3<double>& d) {
   const Vec3<double>& size = core.size;
@@ -75,7 +75,7 @@ inline Vec3<double> point_of_feature(const ShapeCore& core, int feature, const V
   }
 }
 
-/// The core's point furthest along d, of any length but zero.
+/// The core's point furthest along d, which may have any length except zero.
 template <CoreKind K>
 inline CoreSupport support_of_core(const ShapeCore& core, const Vec3<double>& d) {
   if constexpr (K == CoreKind::point || K == CoreKind::ellipsoid) {
@@ -138,8 +138,8 @@ struct Symmetric {
   }
 };
 
-/// Adds `weight` times the derivative of the feature's point by the direction d, in the frame that
-/// `turn` leads to. `point` is the feature's point.
+/// Adds `weight` times the derivative of the feature's point with respect to the direction d,
+/// rotated by `turn`. `point` is the feature's point.
 template <CoreKind K>
 inline void add_curvature(Symmetric& S, double weight, const ShapeCore& core,
                           const Mat3<double>& turn, int feature, const Vec3<double>& d,

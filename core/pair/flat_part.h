@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The part of a core that lies as far along a direction as its support point does: a vertex, an
-// edge or a face. If both of two bodies have more than a vertex, there may be many pairs of
-// nearest points.
+// edge or a face. If this is more than a vertex for both bodies of a pair, there may be many pairs
+// of nearest points.
 #pragma once
 
 #include "core/pair/core_support.h"
@@ -14,9 +14,9 @@ struct FlatPart {
   double length = 0;                           ///< of the edge
 };
 
-/// Among the directions that lean by at most `tilt` radians from d (of unit length), uses the one
-/// with the largest part. For a core known by its support mapping only, the part is the set of its
-/// support points where d is tilted a little.
+/// Uses the direction with the largest part among those within `tilt` radians of the unit vector d.
+/// For a core known only by its support mapping, the part is spanned by support points in
+/// directions tilted slightly from d.
 FlatPart flat_part(const ShapeCore& core, const Vec3<double>& d, double tilt);
 
 }  // namespace minkray

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Final state of a query on a pair of bodies, kept by the caller for the next frame: the separating
 // axis (G. van den Bergen, "Ray Casting against General Convex Objects", 2004, section 4) and the
-// features of the nearest points. Only the start of a search, never the basis of a result: whatever
-// the contents, even from another pair, the bounds are proven again.
+// features of the nearest points. Only used as the start of a search: the bounds are proven again
+// for any contents, even from another pair.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,13 @@
 namespace minkray {
 
 struct PairMemory {
-  /// The direction of the last answer, as the first of the two cores sees it; zero: there is none.
+  /// Direction of the last result, in the frame of the first core; zero: none.
   Vec3<double> axis = Vec3<double>::Zero();
   /// The features of the nearest points, on the first core and on the second.
   std::int32_t feature_a[4] = {}, feature_b[4] = {};
   std::int32_t count = 0;
 
-  /// NaN is none.
+  /// False for zero and for NaN.
   bool has_axis() const {
     constexpr double near_one = 1e-6;
     return std::abs(axis.squaredNorm() - 1) < near_one;

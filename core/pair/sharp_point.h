@@ -7,8 +7,8 @@
 
 namespace minkray {
 
-/// `point` is on the surface but for `off`, and n a normal there, of unit length; both are in the
-/// core's frame. False for a core known by its support mapping only: nothing is known there.
+/// `point` is within `off` of the surface, and the unit vector n is a normal there; both are in the
+/// core's frame. Returns false for a core known only by its support mapping.
 bool is_sharp_at(const ShapeCore& core, const Vec3<double>& point, const Vec3<double>& n,
                  double off);
 

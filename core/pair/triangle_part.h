@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A triangle as a shape of pairs, with its numbers in place: made for one query, without an
+// A triangle as a ContactShape that contains its numbers: made for one query, without an
 // allocation.
 #pragma once
 

@@ -61,7 +61,7 @@ PairDerivativeError error_of(const ContactShape& a, const RigidMotion& motion_a,
               8 * epsilon * (time * speed + pose_a.translation.norm() + pose_b.translation.norm());
   if (spin > 0) drift.turn = later * spin + 16 * epsilon * (1 + time * spin);
 
-  // The numerator is the gap's derivative by twists.
+  // The numerator is the derivative of the gap with respect to twists.
   const Vec3<double> middle = middle_in_world(a, pose_a);
   const double radius_a = a.core().radius, radii = radius_a + b.core().radius;
   CoreContact contact{nearest.normal, nearest.point_a - middle - radius_a * nearest.normal,

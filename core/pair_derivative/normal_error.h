@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Bounds the error of a normal that was found at a point of a core's surface: the difference from
-// the core's own normal there, and how far that turns nearby, at most by the curvature.
+// Bounds the error of a normal found at a point of a core's surface: the difference from the core's
+// exact normal there, plus how far that normal turns nearby, which the curvature bounds.
 #pragma once
 
 #include "core/pair/core_support.h"
 
 namespace minkray {
 
-/// Length of the difference from the true normal at most. The true point is on the surface of the
-/// core grown by its radius, no further than `off` from `point`, with one normal only; n is of unit
-/// length, and both are in the core's frame. Infinite where nothing is known: for a core without a
-/// radius known by its support mapping only, and where `off` does not single out a face.
+/// Upper bound of the length of the difference from the true normal. The true point is on the
+/// surface of the core grown by its radius, within `off` of `point`, and has a single normal. `n`
+/// has unit length; both are in the core's frame. Infinite if unknown: for a core without a radius
+/// that is known only by its support mapping, and if several faces are within `off`.
 double normal_error_at(const ShapeCore& core, const Vec3<double>& point, const Vec3<double>& n,
                        double off);
 

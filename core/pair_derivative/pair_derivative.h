@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Derivatives of a pair's signed distance, and of the time of its first contact, when the bodies
-// are moved a little: by the envelope theorem the nearest points may be assumed fixed on the
-// bodies (J. Danskin, "The Theory of Max-Min, with Applications", 1966). If there are several
-// pairs of them, or several directions of the depth, there are several derivatives.
+// Derivatives of a pair's signed distance and of the time of its first contact with respect to the
+// bodies' motion: by the envelope theorem the nearest points can be treated as fixed on the bodies
+// (J. Danskin, "The Theory of Max-Min, with Applications", 1966). With several pairs of nearest
+// points, or several directions of the depth, there are several derivatives.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@
 
 namespace minkray {
 
-/// Derivatives by the velocity of the body's origin along the world's axes, and by its angular
-/// velocity about that point.
+/// Derivatives with respect to the velocity of the body's origin along the world's axes, and to its
+/// angular velocity about that point.
 struct TwistDerivative {
   Vec3<double> by_velocity = Vec3<double>::Zero();
   Vec3<double> by_turn = Vec3<double>::Zero();
@@ -22,7 +22,7 @@ struct TwistDerivative {
 
 struct PairDerivative {
   TwistDerivative a, b;
-  /// The bounds do not exclude that there are other derivatives; this is one of them.
+  /// True if the bounds do not exclude other derivatives; this is one of them.
   bool is_ridge = false;
 };
 
@@ -34,15 +34,15 @@ inline SignedDistanceOptions for_derivatives(SignedDistanceOptions options = {})
   return options;
 }
 
-/// `found` is the result on this pair, computed with for_derivatives(), with both of its bounds;
-/// else nothing is known: NaN, and a ridge. Fills `error`, if there is one, for all poses that are
-/// no further than `drift`.
+/// `found` is the pair's result with both bounds, computed with for_derivatives(); otherwise the
+/// derivative is NaN and marked as a ridge. Writes `error` if it is not null: it holds for all poses
+/// that are no further than `drift`.
 PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a,
                              const ContactShape& b, const Affine<double>& pose_b,
                              const SignedDistance& found, PairDerivativeError* error = nullptr,
                              const Drift& drift = {});
 
-/// Computes the signed distance, too, as finely as that needs.
+/// Also computes the signed distance, as accurately as the derivative needs.
 PairDerivative finest_derivative_of(const ContactShape& a, const Affine<double>& pose_a,
                                     const ContactShape& b, const Affine<double>& pose_b,
                                     PairDerivativeError* error = nullptr);
@@ -53,8 +53,8 @@ PairDerivative derivative_at_half_space(const Vec3<double>& origin, const Contac
                                         PairDerivativeError* error = nullptr,
                                         const Drift& drift = {});
 
-/// Takes t_lo by a twist of each body at time 0. Zero where they begin inside each other; NaN where
-/// there is no contact.
+/// Derivative of t_lo with respect to a twist of each body at time 0. Zero if the bodies overlap at
+/// time 0; NaN without contact.
 PairDerivative derivative_of(const ContactShape& a, const RigidMotion& motion_a,
                              const ContactShape& b, const RigidMotion& motion_b,
                              const Impact& found);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bounds of the errors of a distance's derivative (docs/pairs.md, "Errors of derivatives"): from
-// what the distance's bounds leave to the direction, and how far support points slide meanwhile.
+// Error bounds of a distance's derivative (docs/pairs.md, "Errors of derivatives"): from the range
+// of directions that the distance's bounds allow, and how far support points slide within it.
 #pragma once
 
 #include "core/pair_derivative/pair_derivative_sharpen.h"
@@ -8,8 +8,8 @@
 
 namespace minkray {
 
-/// The length of the difference from the true derivative is no more. Infinite where nothing is
-/// known: on ridges, of depths in more than one direction, of turns about what may slide.
+/// Upper bounds of the length of the difference from the true derivative. Infinite if unknown: on
+/// ridges, for depths in several directions, for turns about points that may slide.
 struct TwistError {
   double by_velocity = std::numeric_limits<double>::infinity();
   double by_turn = std::numeric_limits<double>::infinity();
@@ -19,14 +19,15 @@ struct PairDerivativeError {
   TwistError a, b;
 };
 
-/// Bounds of the movement since the contact: the way of any point of the bodies, and their turns.
+/// Bounds of the motion since the contact: the displacement of any point of the bodies, and their
+/// rotation.
 struct Drift {
   double way = 0, turn = 0;
 };
 
-/// `contact` is what the derivative was made of. Directions of a depth lean by `depth_tilt` at
-/// most, which is infinite where that is not known. `origin_a` and `origin_b` are the bodies'
-/// origins, seen from A's middle. Holds for all poses that are no further than `drift`.
+/// The derivative was computed from `contact`. `depth_tilt` bounds the error of a depth's direction
+/// (infinite if unknown). `origin_a` and `origin_b` are the bodies' origins relative to A's middle.
+/// The bound holds for all poses within `drift`.
 PairDerivativeError error_of(const CoresInWorld& cores, const CoreContact& contact,
                              const SignedDistance& found, double depth_tilt,
                              const Vec3<double>& origin_a, const Vec3<double>& origin_b,

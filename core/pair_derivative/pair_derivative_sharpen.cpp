@@ -19,8 +19,8 @@ Vec3<double> aside(const CoreContact& contact) {
   return contact.c - contact.normal.dot(contact.c) * contact.normal;
 }
 
-/// Newton's method for the direction whose support point lies along it, with the derivative by
-/// differences: exact to rounding where both surfaces are smooth and curved.
+/// Newton's method for the direction whose support point lies along it, with a finite-difference
+/// derivative: exact to rounding where both surfaces are smooth and curved.
 bool by_newton(const CoresInWorld& cores, CoreContact& contact) {
   constexpr double step = 1e-5, furthest = 1e-3;
   constexpr int most_turns = 8;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Nearest points of two cores and their direction, more precise than bounds of a distance need:
-// those of a core known by its support mapping lean by the square root of what is between the
-// bounds.
+// Nearest points of two cores and their direction, more accurate than the distance's bounds
+// require: for a core known by its support mapping, the direction's error is the square root of the
+// gap between the bounds.
 #pragma once
 
 #include "core/pair/contact_shape.h"
 
 namespace minkray {
 
-/// Two cores along the axes of the world, seen from A's middle.
+/// Two cores along the world's axes, relative to A's middle.
 struct CoresInWorld {
   const ShapeCore& a;
   const ShapeCore& b;
@@ -24,18 +24,20 @@ struct CoresInWorld {
         between(between_middles(shape_a, pose_a, shape_b, pose_b)) {}
 
   Vec3<double> support_a(const Vec3<double>& n) const;
-  Vec3<double> support_b(const Vec3<double>& n) const;  ///< furthest along n, seen from A's middle
+  Vec3<double> support_b(
+      const Vec3<double>& n) const;  ///< furthest along n, relative to A's middle
   double size() const { return a.ball + b.ball; }
   /// Error of support points.
   double rounding() const { return core_rounding * (size() + between.x.norm()) + between.loss; }
 };
 
-/// c leads from a point of A to one of B.
+/// `c` is the vector from a point of A to a point of B.
 struct CoreContact {
   Vec3<double> normal, a, c;
 };
 
-/// Improves a contact whose normal is nearly right; leaves it where nothing better is found.
+/// Improves a contact whose normal is nearly correct; leaves it unchanged if nothing better is
+/// found.
 void sharpen(const CoresInWorld& cores, CoreContact& contact);
 
 }  // namespace minkray

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The distance of two cores by GJK of sliding features (curved_gjk.h), compiled for the kinds of
-// each pair: support points are most of the work, and the compiler sees through them.
+// Distance of two cores by GJK with sliding features (curved_gjk.h), compiled separately for each
+// pair of kinds, so that the compiler can inline support points, which are most of the work.
 #pragma once
 
 #include <array>
@@ -9,13 +9,13 @@
 
 namespace minkray {
 
-/// Four points of B - A around the origin, if there are any: where a polytope may begin.
+/// Four points of B - A that enclose the origin, if found: a polytope can start from them.
 struct Enclosure {
   std::array<Vec3<double>, 4> c, a;
   bool is_found = false;
 };
 
-/// Fastest if A's kind is not after B's.
+/// Returns the distance of two cores. Fastest if A's kind is not after B's.
 CoreDistance distance_of_cores(const CorePair& pair, const CoreSearch& search,
                                Enclosure* enclosure = nullptr);
 

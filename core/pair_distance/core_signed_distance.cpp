@@ -14,7 +14,8 @@
 namespace minkray {
 namespace {
 
-/// The depth by a polytope that grows from there. Returns whether its bounds met; they hold anyway.
+/// Computes the depth by a polytope that grows from the enclosure. Returns true if the bounds met;
+/// they hold in any case.
 template <CoreKind A, CoreKind B>
 bool expand(const CorePair& pair, double gap, const Enclosure& enclosure, CoreDistance& found) {
   ExpandingPolytope<A, B> polytope(pair, gap, found);
@@ -23,7 +24,8 @@ bool expand(const CorePair& pair, double gap, const Enclosure& enclosure, CoreDi
   return has_met;
 }
 
-/// Four points around the origin, if the cores overlap so little that GJK did not find any.
+/// Finds four points that enclose the origin, if the overlap is so slight that GJK did not find
+/// any.
 bool enclose(const CorePair& pair, double gap, CoreDistance& found, Enclosure& enclosure) {
   if (!DepthDirection::helps(pair) || found.axis.isZero(0)) return false;
   DepthDirection depth(pair);
@@ -40,7 +42,7 @@ bool enclose(const CorePair& pair, double gap, CoreDistance& found, Enclosure& e
 bool depth_by_polytope(const CorePair& pair, double gap, Enclosure enclosure, CoreDistance& found) {
   constexpr double shallow = 1e-4;
   const bool is_shallow = found.lower > -shallow * pair.size();
-  // GJK's enclosure is then as flat as rounding allows.
+  // GJK's enclosure is then flat to within rounding.
   Enclosure finer;
   if (is_shallow && enclose(pair, gap, found, finer)) enclosure = finer;
   if (!enclosure.is_found) {
@@ -57,7 +59,7 @@ bool depth_by_polytope(const CorePair& pair, double gap, Enclosure enclosure, Co
   return expand<other, other>(pair, gap, enclosure, found);
 }
 
-/// Depth of the origin within four points of C; negative if it is not known.
+/// Depth of the origin inside four points of C; negative if unknown.
 double depth_within(const Enclosure& four) {
   if (!four.is_found) return -1;
   double least = std::numeric_limits<double>::infinity();
@@ -66,16 +68,17 @@ double depth_within(const Enclosure& four) {
           &opposite = four.c[(i + 3) % 4];
     const Vec3<double> n = unit<double>((q - p).cross(r - p));
     const double side = n.dot(opposite - p) < 0 ? -1 : 1;
-    // With any n: what is beyond the nearest of the three corners along it is within.
+    // Holds for any n: points beyond the nearest of the three corners along n are inside.
     least = std::min(least, -side * n.dot(p));
     least = std::min({least, -side * n.dot(q), -side * n.dot(r)});
   }
   return least;
 }
 
-/// If the cores nearly touch, the difference of their nearest points is short of digits for a
-/// direction. B is moved out along the axis: the plane that is found there is a separating plane
-/// here, too, and its axis a better one to move out along; the points can be used here, too.
+/// If the cores nearly touch, the difference of their nearest points has too few digits to give a
+/// direction. So B is moved out along the axis: the plane found there also separates the cores
+/// here, and has a more accurate axis, along which B is moved next; the points can also be used
+/// here.
 void improve_plane(const CorePair& pair, CoreDistance& found) {
   constexpr double stand_offs[] = {1e-3, 1e-3, 1e-5};
   for (const double stand_off : stand_offs) {
@@ -98,8 +101,8 @@ void improve_plane(const CorePair& pair, CoreDistance& found) {
   if (found.lower > 0) found.status = CoreStatus::separated;
 }
 
-/// The points of first contact when B is moved out along the axis: the nearest points of the two
-/// once B is at a fair distance, where they are found most exactly.
+/// Finds the points that coincide when B is moved out along the axis until the cores touch: their
+/// nearest points with B moved out further, where they are most accurate.
 void find_contact(const CorePair& pair, CoreDistance& found) {
   constexpr double stand_off = 1e-3;
   const double apart = stand_off * pair.size();
@@ -111,16 +114,16 @@ void find_contact(const CorePair& pair, CoreDistance& found) {
   found.c = nearest.c - (apart - found.lower) * found.axis;
 }
 
-/// The depth of cores that were found to overlap, or whose distance rounding hides.
+/// Depth of cores that overlap, or that touch to within rounding.
 CoreDistance depth_of_cores(const CorePair& pair, Enclosure enclosure, CoreDistance found,
                             const SignedDistanceOptions& options, double gap, bool only_sign) {
-  // Points that are as near to each other are a sufficient result for so slight an overlap.
+  // For an overlap this slight, points this close to each other are a sufficient result.
   const double slight = gap * (pair.size() + pair.x.norm());
   if (found.status == CoreStatus::overlapping && found.lower >= -slight) {
     if (!(found.c.norm() <= slight / 2)) improve_plane(pair, found);
     if (found.lower <= 0 && found.c.norm() <= slight / 2) return found;
   }
-  // A common point that was found is of neither's surface.
+  // A common point is usually on neither surface.
   const Vec3<double> a = found.a, c = found.c;
   const double upper = found.status == CoreStatus::overlapping
                            ? std::numeric_limits<double>::infinity()
@@ -159,9 +162,9 @@ CoreDistance depth_of_cores(const CorePair& pair, Enclosure enclosure, CoreDista
   return found;
 }
 
-/// The direction of a depth whose bounds are near each other, and the points with it, by Newton's
-/// method: they are known to the square root of what is between the bounds only. Returns whether
-/// they were found; the bounds hold anyway.
+/// Improves the direction and the points of a depth with close bounds by Newton's method: until
+/// then their error is the square root of the gap between the bounds. Returns true if they were
+/// found; the bounds hold in any case.
 bool sharpen(const CorePair& pair, CoreDistance& found) {
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
   if (!DepthDirection::helps(pair)) return false;
@@ -214,7 +217,7 @@ CoreDistance core_signed_distance(const CorePair& pair, const SignedDistanceOpti
       return true;
     return !overlaps && found.upper - found.lower <= settled_core_gap * size;
   };
-  // A common point proves an overlap if it is deeper than rounding can make it.
+  // A common point proves an overlap if it is deeper than rounding.
   if (options.only_sign && found.status == CoreStatus::overlapping) {
     const double depth = std::max(depth_within(enclosure), 0.0);
     if (depth + radii > 2 * pair.rounding()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The signed distance of two cores that have no closed form: by a search for the distance, and
-// where they overlap, or touch, for the depth.
+// Signed distance of two cores that have no closed form: searches for the distance and, if the
+// cores overlap or touch, for the depth.
 #pragma once
 
 #include "core/pair/core_pair.h"
@@ -9,11 +9,11 @@ namespace minkray {
 
 struct SignedDistanceOptions;
 
-/// Gap of the bounds, relative to the sizes, at which a query is settled. Others go to branch and
-/// bound.
+/// Gap of the bounds, relative to the sizes, at which a query is settled. Queries with a larger gap
+/// go to branch and bound.
 inline constexpr double settled_core_gap = 1e-9;
 
-/// A's kind is not after B's. There may be a memory.
+/// A's kind must not be after B's. `memory` may be null.
 CoreDistance core_signed_distance(const CorePair& pair, const SignedDistanceOptions& options,
                                   PairMemory* memory);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The distance of two cores: GJK keeps up to four points of C and adds the support point in the
-// direction d of their closest point to the origin. On curved surfaces GJK converges linearly and,
-// after a few turns, hands over to flat ends (flat_ends.h) and sliding features
-// (sliding_features.h). The plane through the support point is a lower bound, the combination of
-// points an upper one; the loop ends when they meet.
+// Distance of two cores: GJK keeps up to four points of C and adds the support point in the
+// direction d of their closest point to the origin. On curved surfaces GJK converges linearly;
+// after a few iterations flat ends (flat_ends.h) and sliding features (sliding_features.h) take
+// over. The plane through the support point is a lower bound, the closest point an upper bound; the
+// loop ends when they meet.
 #pragma once
 
 #include "core/pair_distance/flat_ends.h"
@@ -51,8 +51,8 @@ class CurvedGjk {
       feature_b_[count_] = w.feature_b;
       ++count_;
       const SimplexPoint closest = closest_of_simplex(y_, count_, true);
-      // Rounding ends what should come nearer with every turn: the point of the turn before is the
-      // answer, which the newest has no weight in.
+      // If rounding keeps the closest point from coming nearer, the previous one, without the
+      // newest point, is the result.
       const bool is_nearer = closest.kept != 0 && closest.squared < squared;
       if (!is_nearer && (closest.kept == 0 || ++stalls > 1 || query_.result.lower > 0)) {
         --count_;
@@ -67,7 +67,8 @@ class CurvedGjk {
     return finish(CoreStatus::unsettled);
   }
 
-  /// True if the search ended with four points of C around the origin: c, and the a of each.
+  /// True if the search ended with four points of C that enclose the origin: writes them to c, and
+  /// their points of A to a.
   bool encloses(Vec3<double>* c, Vec3<double>* a) const {
     if (count_ != 4 || query_.result.status != CoreStatus::overlapping) return false;
     std::copy(y_, y_ + 4, c);
@@ -76,9 +77,9 @@ class CurvedGjk {
   }
 
  private:
-  /// Turns of GJK before features slide: with a separating plane, and without one.
+  /// Iterations of GJK before features slide: with a separating plane, and without one.
   static constexpr int turns_apart = 2, turns_near = 6;
-  /// Damping of the first step of features that slide, in sizes; less if they were the right ones.
+  /// Damping of the first step of sliding features that were stored by a previous query, in sizes.
   static constexpr double resumed_damping = 1e-3;
   static constexpr bool any_slides =
       (A == CoreKind::other || slides(A) || slides(B)) || B == CoreKind::other;
@@ -103,13 +104,13 @@ class CurvedGjk {
     count_ = kept;
   }
 
-  /// Continues to second order.
+  /// Continues the search to second order.
   bool slide(const Vec3<double>& d, double damping) {
     SlidingFeatures<A, B> features(query_);
     for (int i = 0; i < count_; ++i) features.add(feature_a_[i], feature_b_[i], weight_[i]);
     if (!features.run(d, damping)) return false;
     if (!query_.search.memory) return true;
-    // Features slide back to where bodies are nearest, and are of no use to those that overlap.
+    // Remembered features lead back to the nearest points, which overlapping bodies do not have.
     if (query_.result.status == CoreStatus::overlapping)
       query_.search.memory->count = 0;
     else
@@ -117,10 +118,10 @@ class CurvedGjk {
     return true;
   }
 
-  /// Begins with the last state of the previous query on the pair: its features are points of C
-  /// wherever the bodies are by now. Returns true if that was the result; if not, d and the points
-  /// that are kept are where to continue. The direction alone is no start: on a surface that is
-  /// known by its support mapping only, a simplex of points as near to each other has few digits.
+  /// Starts from the final state of the previous query on the pair: its features are points of C at
+  /// any pose of the bodies. Returns true if that gave the result; otherwise the search continues
+  /// from d and the kept points. The direction alone is no start: on a surface known only by its
+  /// support mapping, a simplex of such close points has few digits.
   bool resume(const PairMemory& memory, Vec3<double>& d, double& squared) {
     if (!memory.has_axis()) return false;
     take_features_of(memory);
@@ -129,8 +130,7 @@ class CurvedGjk {
     keep(closest);
     if (closest.is_inside()) {
       finish(CoreStatus::overlapping);
-      // Points that were not chosen for it may lie in a plane: then only rounding encloses the
-      // origin.
+      // The stored points may lie in a plane: then they enclose the origin by rounding only.
       constexpr double in_plane = 1e-13;
       if (query_.result.upper <= in_plane * query_.size) return true;
     } else if (count_ > 0) {
@@ -156,7 +156,7 @@ class CurvedGjk {
     return false;
   }
 
-  /// Takes nothing of numbers that are none of the cores' features.
+  /// Ignores numbers that are not features of the cores.
   void take_features_of(const PairMemory& memory) {
     const Vec3<double> of_b = query_.pair.to_b(-memory.axis);
     for (int i = 0; i < 4 && i < memory.count; ++i) {
@@ -192,15 +192,15 @@ class CurvedGjk {
       }
       query_.result.upper = query_.result.c.norm();
     }
-    // A plane between the two is a better witness than a simplex as flat as rounding makes it.
+    // A separating plane is more reliable than a simplex that is flat to within rounding.
     if (status == CoreStatus::overlapping && query_.result.lower > 0)
       query_.result.status = CoreStatus::unsettled;
     if (count_ == 3 && status != CoreStatus::overlapping) use_face();
     return query_.result;
   }
 
-  /// If the two nearly touch, the closest point is short of digits for a direction; the face that
-  /// it lies on is not.
+  /// If the cores nearly touch, the closest point has too few digits to give a direction; the face
+  /// it lies on has enough.
   void use_face() {
     Vec3<double> n = (y_[1] - y_[0]).cross(y_[2] - y_[0]);
     const double length = n.norm();

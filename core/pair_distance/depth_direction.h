@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Finds where overlapping curved cores are the least deep, to second order (sliding_features.h),
-// and points of C around there. A polytope that grows from the nearest face alone approaches a
-// curved surface slowly, and hardly ever finds an overlap of a millionth of the size.
+// Finds the direction of least depth of overlapping curved cores, to second order
+// (sliding_features.h), and points of C near it. A polytope that only grows from its nearest face
+// approaches a curved surface slowly, and rarely finds an overlap of 1e-6 of the size.
 #pragma once
 
 #include <array>
@@ -24,10 +24,10 @@ class DepthDirection {
   double gap() const { return gap_; }
   int supports() const { return query_.result.supports; }
 
-  /// Four points of C around the origin, which is not deep in it: three around the direction that
-  /// is found from `from`, and the one that is furthest. The three are as near to each other that
-  /// no more than `gap` is cut off between them, if that is wide enough for the depth.
-  /// `is_sure(enclosure)` has the last word.
+  /// Finds four points of C that enclose the origin, which is close to C's surface: three around
+  /// the direction found from `from`, and the furthest point. The three are close enough to each
+  /// other to cut off at most `gap`, unless the depth needs wider ones. `is_sure(enclosure)`
+  /// decides if four points are accepted.
   template <class IsSure>
   bool enclose(const Vec3<double>& from, double gap, Enclosure& enclosure, const IsSure& is_sure) {
     SlidingFeatures<CoreKind::other, CoreKind::other> features(query_);
@@ -43,7 +43,7 @@ class DepthDirection {
       Candidates near;
       features.around(angle, [&](const DifferencePoint& p) { near.add(p); });
       if (try_triples(near, furthest, enclosure, is_sure)) return true;
-      // At an edge or a corner of C the others are further off.
+      // At an edge or a corner of C the other points are further away.
       Candidates all;
       for (std::size_t i = 0; i < std::min<std::size_t>(near.count, 6); ++i)
         all.add(near.points[i]);
@@ -99,7 +99,8 @@ class DepthDirection {
     return false;
   }
 
-  /// Seen from the furthest point, the origin must be within the shadow of three.
+  /// Tries three near points with the furthest point: projected along it, the three must enclose
+  /// the origin.
   template <class IsSure>
   static bool try_triples(const Candidates& near, const DifferencePoint& furthest,
                           Enclosure& enclosure, const IsSure& is_sure) {

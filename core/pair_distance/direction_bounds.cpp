@@ -20,8 +20,8 @@ class Search {
   }
 
   CoreDistance run() {
-    // Askew: the directions that matter are often along the axes of a shape, and a cell with one of
-    // them at its corner would have to be cut for ever.
+    // Rotated: the directions that matter are often axes of a shape, and cells with such a
+    // direction at a corner would be cut again and again.
     const Mat3<double> start = rotation_matrix(0.31, 0.47, 0.59, 0.58);
     for (int octant = 0; octant < 8; ++octant) {
       const auto corner = [&](int axis) {
@@ -63,7 +63,7 @@ class Search {
 
   void add(DirectionCell& cell) {
     for (const DirectionSample& corner : cell.corners) cell.add_point(corner.c);
-    // Large cells are cut before they are bounded more closely.
+    // Large cells are cut before more points are added.
     constexpr double large = 0.5;
     const int most = cell.length() > large ? 4 : DirectionCell::most_points;
     DirectionCellBound bound(cell, size_);
@@ -78,7 +78,7 @@ class Search {
     cells_.push_back(cell);
   }
 
-  /// Halves the longest side. Not of cells that are too small for their corners' digits.
+  /// Halves the longest side. Returns false for cells too small for their corners' digits.
   bool split(std::size_t index) {
     constexpr double smallest = 1e-7;
     const DirectionCell cell = cells_[index];
@@ -90,7 +90,7 @@ class Search {
     for (const bool is_first : {true, false}) {
       DirectionCell half;
       half.bound = cell.bound;
-      // The points that were found last are nearest to where the bound is largest.
+      // The last points are closest to the direction with the largest bound.
       for (int i = cell.count - 1; i >= std::max(3, cell.count - 2); --i)
         half.add_point(cell.point(i));
       if (is_first)
@@ -102,7 +102,7 @@ class Search {
     return true;
   }
 
-  /// A cell, and its place in the heap: that with the largest bound is on top.
+  /// A cell in the heap; the cell with the largest bound is on top.
   struct Entry {
     double bound;
     std::size_t cell;

@@ -9,20 +9,20 @@ namespace minkray {
 
 struct DirectionSearch {
   double gap = 1e-10;        ///< upper - lower, relative to the size
-  int max_supports = 50000;  ///< then the bounds are what they are
+  int max_supports = 50000;  ///< the search ends there, with the bounds reached
   /// Ends as soon as the sign is known.
   bool only_sign = false;
 };
 
-/// Starts from `known.lower` and `known.axis`. upper may be negative: minus the penetration depth.
-/// a and c are not found. `is_exhausted` if the bounds are further apart than requested.
+/// Starts from `known.lower` and `known.axis`. `upper` may be negative: minus the penetration
+/// depth. Sets `is_exhausted` if the bounds are further apart than requested; does not set a and c.
 ///
 /// The signed distance is the maximum over all unit vectors n of g(n) = min n.c over c of C. Any n
-/// gives a lower bound. For an upper one the sphere of directions is cut into triangles. With the
+/// gives a lower bound. For an upper bound the sphere of directions is cut into triangles. With the
 /// support points c_j of a triangle's corners, g(n) <= u(n) = min_j n.c_j. If u is negative, each
 /// n.c_j is a convex function along great circles, so u is largest at a corner, or on a side where
 /// two n.c_j are equal, or inside where all three are: a few candidates. If u is positive, the same
-/// holds on the flat triangle, and u on the sphere is larger by the triangle's sagitta at most. The
+/// holds on the flat triangle; on the sphere, u is larger by at most the triangle's sagitta. The
 /// triangle with the largest bound is halved until the bounds meet.
 CoreDistance bound_by_directions(const CorePair& pair, const CoreDistance& known,
                                  const DirectionSearch& search = {});

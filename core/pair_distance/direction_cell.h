@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A triangle of directions, the support points that bound g(n) = min n.c there, and that bound
-// (direction_bounds.h). Where branch and bound has to go, it makes tens of thousands of these, so
-// they are plain numbers, and a new point costs what is new with it.
+// (direction_bounds.h). Branch and bound makes tens of thousands of cells, so they are plain
+// numbers, and a new point only adds its own candidates.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace minkray {
 
-/// Relative to the sizes, support points and products with them are rounded by no more.
+/// Rounding error bound of support points and of products with them, relative to the sizes.
 inline constexpr double direction_rounding = 16 * std::numeric_limits<double>::epsilon();
 
 struct PlainVector {
@@ -46,8 +46,8 @@ struct DirectionSample {
   PlainVector n, c;
 };
 
-/// Directions between three, and support points that bound g there: those of the corners, and of
-/// directions where the bound was largest.
+/// All directions between three corners, and support points that bound g there: those of the
+/// corners, and those of directions where the bound was largest.
 struct DirectionCell {
   static constexpr int most_points = 8;
   std::array<DirectionSample, 3> corners;  ///< counter-clockwise from outside
@@ -68,7 +68,7 @@ struct DirectionCell {
     return longest;
   }
   double length() const { return std::sqrt(squared_side(longest_side())); }
-  /// True if the point is new.
+  /// Adds the point. Returns true if it is new.
   bool add_point(const PlainVector& c) {
     for (int i = 0; i < count; ++i)
       if (point(i) == c) return false;
@@ -77,8 +77,8 @@ struct DirectionCell {
   }
 };
 
-/// The largest u(n) = min n.c over a cell, c of its points, by the candidates for it, and where it
-/// is.
+/// Maximum of u(n) = min n.c (c: the cell's points) over a cell, found by testing candidates, and
+/// its direction.
 class DirectionCellBound {
  public:
   DirectionCellBound(const DirectionCell& cell, double size) : cell_(cell), size_(size) {
@@ -91,7 +91,7 @@ class DirectionCellBound {
     take_points();
   }
 
-  /// Those that the cell was given since.
+  /// Takes the points that were added to the cell since the last call.
   void take_points() {
     for (; taken_ < cell_.count; ++taken_) {
       const PlainVector& p = cell_.point(taken_);
@@ -118,8 +118,8 @@ class DirectionCellBound {
 
   double value() const {
     const double allowed = highest_ + direction_rounding * size_;
-    // On the flat triangle, which is nearer to the origin than the sphere, u is concave: no larger
-    // than at the candidates. There and on the sphere it differs by factors between these two.
+    // On the flat triangle, which is nearer to the origin than the sphere, u is concave, so it is
+    // largest at a candidate. From there to the sphere it changes by a factor between these two.
     const PlainVector normal =
         (cell_.corner(1) - cell_.corner(0)).cross(cell_.corner(2) - cell_.corner(0));
     const double nearest = std::abs(normal.dot(cell_.corner(0))) / normal.norm();
@@ -129,9 +129,9 @@ class DirectionCellBound {
  private:
   struct Candidate {
     PlainVector n;
-    double u;      ///< of the points that were taken
-    double apart;  ///< by so much n.c of the points that it is made of differ
-    double turn;   ///< squared: by so much rounding may have turned n
+    double u;      ///< over the points taken
+    double apart;  ///< largest difference of n.c between the points that define it
+    double turn;   ///< squared angle by which rounding may have turned n
 
     double value() const {
       const double most = u + apart;
@@ -139,12 +139,12 @@ class DirectionCellBound {
     }
   };
   // Three corners, two sides for each pair of points (signs change twice around a triangle, or not
-  // at all), and each three of them.
+  // at all), and one for each three points.
   static constexpr int most_candidates = 3 + 2 * 28 + 56;
 
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-  /// All points up to the one that is being taken bound it.
+  /// Adds a candidate, bounded by all points up to the one that is being taken.
   void add(const PlainVector& n, double apart, double turn) {
     double least = std::numeric_limits<double>::infinity();
     const int points = std::min(taken_ + 1, cell_.count);
@@ -167,14 +167,14 @@ class DirectionCellBound {
     }
   }
 
-  /// Adds the candidate where n.p = n.q = n.r, if it is in the cell or just outside. For points in
-  /// a line the one between the others bounds nothing. For slivers rounding turns n much: that
-  /// matters where the foot of their plane is in the triangle (elsewhere u is larger at another
-  /// candidate), and the foot is no further along n than the furthest of the three, nor is the
-  /// plane but for the square of the turn.
+  /// Adds the candidate where n.p = n.q = n.r, if it is in the cell or just outside. If the points
+  /// lie in a line, the middle one bounds nothing. For slivers, rounding turns n considerably. That
+  /// only matters if the foot of their plane is in the triangle (otherwise u is larger at another
+  /// candidate); the foot is no further along n than the furthest of the three points, and the
+  /// plane is no further either, up to the square of the turn.
   void add_triple(const PlainVector& p, const PlainVector& q, const PlainVector& r) {
     constexpr double in_line = 1e-12, beside = 1e-3;
-    // A cross product is rounded by so much of its factors' lengths.
+    // Rounding of a cross product, relative to the product of its factors' lengths.
     constexpr double in_rounding = 8 * std::numeric_limits<double>::epsilon();
     const PlainVector e1 = q - p, e2 = r - p;
     PlainVector n = e1.cross(e2);

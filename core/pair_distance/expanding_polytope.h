@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Penetration depth of overlapping cores by a polytope within C that grows around the origin (G.
+// Penetration depth of overlapping cores by a polytope inside C that grows around the origin (G.
 // van den Bergen, "Proximity Queries and Penetration Depth Computation on 3D Game Objects", 2001).
 // Replaces the face nearest to the origin by the support point beyond it, until none is beyond.
 // Exact for polytopes.
@@ -23,19 +23,21 @@ namespace minkray {
 template <CoreKind A, CoreKind B>
 class ExpandingPolytope {
  public:
-  /// Searches until the bounds are this near to each other, in sizes. Starts from what was found.
+  /// Searches until the bounds are `gap` sizes apart. Starts from the result `found`.
   ExpandingPolytope(const CorePair& pair, double gap, const CoreDistance& found)
       : pair_(pair), size_(pair.size() + pair.x.norm()), gap_(gap * size_), found_(found) {
     found_.upper = 0;
   }
 
-  /// Grows from four points of C around the origin, c and the a of each. Returns whether the bounds
-  /// have met; they hold anyway. Then a and c are what the depth is seen at: c = upper * axis.
+  /// Grows from four points c of C that enclose the origin; `a` has their points of A. Returns true
+  /// if the bounds have met (they hold in any case). The result's a and c are then the points of
+  /// the depth: c = upper * axis.
   bool run(const Vec3<double>* c, const Vec3<double>* a) {
     if (!start(c, a)) return false;
     while (found_.supports < most_supports) {
       const int nearest = pop();
-      // Faces further off than the depth can be are not kept apart: none of them is the nearest.
+      // Faces that are further away than the depth can be are not in the heap: none of them is the
+      // nearest.
       const bool is_none = nearest < 0 || faces_[nearest].d >= -found_.lower;
       found_.upper = is_none ? found_.lower : -faces_[nearest].d;
       if (is_none) return finish(found_.lower, found_.axis);
@@ -55,7 +57,8 @@ class ExpandingPolytope {
     return false;
   }
 
-  /// True if the origin is within four points of C for sure: then a polytope may begin with them.
+  /// True if four points of C enclose the origin with certainty, so that a polytope can start from
+  /// them.
   bool begins(const Vec3<double>* c, const Vec3<double>* a) { return start(c, a); }
 
   const CoreDistance& found() const { return found_; }
@@ -63,10 +66,10 @@ class ExpandingPolytope {
  private:
   static constexpr int most_points = 400, most_faces = 2 * most_points,
                        most_heaped = 4 * most_faces, most_supports = 1000;
-  /// In sizes: what is as near to a plane is in it.
+  /// Points this close to a plane, in sizes, are in the plane.
   static constexpr double in_plane = 1e-14;
-  /// Rounding of a volume between four points of C, in products of the lengths of two sides and
-  /// the size: differences, a cross product and a dot product of numbers no larger than that.
+  /// Rounding error of the volume of four points of C, relative to the lengths of two sides times
+  /// the size: it has differences, a cross product and a dot product.
   static constexpr double rounded_volume = 32 * std::numeric_limits<double>::epsilon();
 
   struct Face {
@@ -99,8 +102,8 @@ class ExpandingPolytope {
     count_ = 4;
     constexpr int corners[4][3] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {0, 2, 3}};
     for (const auto& corner : corners) {
-      // Here the origin must be on the inner side for sure: all else follows from that. For
-      // slivers n itself is rounding.
+      // The origin must be on the inner side with certainty: all bounds rely on this. The normal n
+      // of a sliver is mostly rounding error.
       const Vec3<double>& from = y_[corner[0]];
       const Vec3<double> e1 = y_[corner[1]] - from, e2 = y_[corner[2]] - from, n = e1.cross(e2);
       const double n_rounding = rounded_volume * e1.norm() * e2.norm();
@@ -117,7 +120,7 @@ class ExpandingPolytope {
     return true;
   }
 
-  /// The face's index; negative if there is none that the origin is inside of.
+  /// Returns the face's index; negative if the origin is not on the inner side of the face.
   int add_face(int i, int j, int k) {
     if (free_count_ == 0 && face_count_ == most_faces) return -1;
     const int index = free_count_ > 0 ? free_[--free_count_] : face_count_++;
@@ -136,7 +139,8 @@ class ExpandingPolytope {
       is_flat = std::max(std::max(a, b), c) - face.d <= in_plane * size_;
     }
     if (!is_flat || !(face.d > 0)) {
-      // A sliver: the point nearest to the origin is more precise than a normal of rounding.
+      // A sliver: the direction of its point nearest to the origin is more accurate than its
+      // normal.
       const Vec3<double> corners[3] = {y_[i], y_[j], y_[k]};
       const SimplexPoint closest = closest_of_simplex(corners, 3, false);
       const double length = std::sqrt(closest.squared);
@@ -153,7 +157,7 @@ class ExpandingPolytope {
     return index;
   }
 
-  /// The face nearest to the origin; negative if none is nearer than the depth can be.
+  /// Returns the face nearest to the origin; negative if none is nearer than the depth can be.
   int pop() {
     while (heaped_ > 0) {
       const Heaped top = heap_[0];
@@ -163,7 +167,8 @@ class ExpandingPolytope {
     return -1;
   }
 
-  /// All faces that the newest point is beyond of, from `first` on, give way to it.
+  /// Replaces all faces that the newest point lies beyond, connected to `first`, by a fan to the
+  /// point.
   bool grow(int first) {
     const Vec3<double>& w = y_[count_];
     int open = 0, edges = 0;
@@ -187,7 +192,7 @@ class ExpandingPolytope {
         }
       }
     }
-    // Edges of the hole may have been removed since.
+    // Skips edges whose outer face was removed later.
     int kept = 0;
     for (int e = 0; e < edges; ++e)
       if (faces_[edges_[e].beside / 4].is_there) edges_[kept++] = edges_[e];
@@ -218,8 +223,8 @@ class ExpandingPolytope {
     return true;
   }
 
-  /// The plane that is as good as the best one, and the point of the surface nearest to the origin.
-  /// Where faces lie in one plane, any of them may hold that.
+  /// Sets the best plane, and the surface point nearest to the origin. If several faces lie in that
+  /// plane, any of them may contain this point.
   bool finish(double height, const Vec3<double>& axis) {
     found_.status = CoreStatus::overlapping;
     found_.lower = height;
@@ -231,7 +236,7 @@ class ExpandingPolytope {
     for (int f = 0; f < face_count_; ++f) {
       const Face& face = faces_[f];
       if (!face.is_there) continue;
-      // Distance of the face once B has moved in along the axis.
+      // Distance of the face after B has moved in along the axis.
       if (!(face.d - way * face.n.dot(axis) >= all_but_leaning)) found_.has_one_direction = false;
       if (!(face.d <= -height + gap_ + in_plane * size_)) continue;
       const Vec3<double> corners[3] = {y_[face.corner[0]] - foot, y_[face.corner[1]] - foot,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cores that end in disks (cylinders, cones and their like): over a flat end the support point
-// jumps from one side of the rim to the other, and neither GJK nor Newton's method converges. There
-// the answer is known in closed form.
+// Closed form for cores that end in disks (cylinders, cones): over a flat end the support point
+// jumps from one side of the rim to the other, and neither GJK nor Newton's method converges.
 #pragma once
 
 #include "core/pair/core_query.h"
@@ -9,17 +8,17 @@
 namespace minkray {
 namespace detail {
 
-/// A flat end's axis, where its support point jumps from one side of the rim to the other: the
-/// result if the other's nearest point lies over the disk.
+/// Tries the axis of a flat end as the normal: it is the result if the other core's nearest point
+/// lies over the disk.
 template <CoreKind Other, CoreKind A, CoreKind B>
 bool flat_end(CoreQuery<A, B>& query, const ShapeCore& disks, const ShapeCore& other,
               const Mat3<double>& to_other, const Vec3<double>& d, bool is_of_a) {
   const CorePair& pair = query.pair;
-  constexpr double flat = 0.3;  // squared slopes above this do not end on a flat end
+  constexpr double flat = 0.3;  // largest squared slope of d against the axis
   if (!(d.x() * d.x() + d.y() * d.y() < flat * d.z() * d.z())) return false;
   const double sign = d.z() < 0 ? -1 : 1;
   const double rim = sign > 0 ? disks.size.y() : disks.size.x(), half = disks.size.z();
-  // The other's nearest point p, in the frame of the disks.
+  // Point p of the other core nearest to the flat end, in the frame of the disks.
   const Vec3<double> towards(0, 0, -sign);
   ++query.result.supports;
   const CoreSupport nearest = support_of_core<Other>(other, to_other * towards);
@@ -45,7 +44,7 @@ bool flat_end(CoreQuery<A, B>& query, const ShapeCore& disks, const ShapeCore& o
 
 }  // namespace detail
 
-/// Tries the flat ends of both cores, as the direction d from A to B meets them. Returns true if
+/// Tries the flat ends of both cores that the direction d from A to B points to. Returns true if
 /// that gave a result.
 template <CoreKind A, CoreKind B>
 bool try_flat_ends(CoreQuery<A, B>& query, const Vec3<double>& d) {

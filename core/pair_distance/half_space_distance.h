@@ -7,27 +7,28 @@
 
 namespace minkray {
 
-/// A is the half-space of all points x with normal . x <= offset, the normal of unit length, B the
-/// shape at a rigid pose. Negative if a part of B is below the plane: moving B that far along the
-/// normal frees it. Unknown (is_unknown()) if lengths are not finite.
+/// A is the half-space of all points x with normal . x <= offset, where the normal has unit length;
+/// B is the shape at a rigid pose. The distance is negative if a part of B is below the plane:
+/// moving B that far along the normal frees it. Unknown (is_unknown()) if lengths are not finite.
 SignedDistance distance_to_half_space(const Vec3<double>& normal, double offset,
                                       const ContactShape& shape, const Affine<double>& pose);
 
-/// A plane by one of its points, from which what is near it is near.
+/// A plane given by its normal and one of its points, which should be near the bodies: heights are
+/// then accurate.
 struct PlacedPlane {
   Vec3<double> normal = Vec3<double>::UnitZ();  ///< of unit length
   TwoFoldVec3<double> point;
 
-  /// The plane of all points with normal . x = offset, under an invertible map.
+  /// Maps the plane of all points with normal . x = offset by an invertible map.
   static PlacedPlane of(const Vec3<double>& normal, double offset, const Affine<double>& map);
 };
 
-/// `linear` turns to the axes of the plane and of the middle, as which points are given, too.
+/// `linear` rotates to the axes in which the plane, the middle and the returned points are given.
 SignedDistance distance_to_half_space(const PlacedPlane& plane, const ContactShape& shape,
                                       const Mat3<double>& linear, const PlacedMiddle& middle);
 
-/// A shape that has been brought near: its middle is `height` above the plane, which may be off by
-/// `loss`. Points are seen from the middle, along the axes that `linear` turns to.
+/// For relative placement: the shape's middle is `height` above the plane, with an error of at most
+/// `loss`. Returned points are relative to the middle, in the axes that `linear` rotates to.
 SignedDistance distance_to_half_space(const Vec3<double>& normal, double height, double loss,
                                       const ContactShape& shape, const Mat3<double>& linear);
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int directions = 8, most_corners = 3 * directions;
 
-/// A point seen along the normal: where it is across, and how high.
+/// A point projected along the normal: its position in the plane, and its height.
 struct Corner {
   double x, y, height;
 };
@@ -27,8 +27,8 @@ struct Polygon {
   const Corner& operator[](int i) const { return corners[static_cast<std::size_t>(i)]; }
 };
 
-/// The hull of corners, seen along the normal (A. Andrew's monotone chain, 1979). Corners nearer to
-/// each other than `near` are one, and those as near to an edge are none.
+/// Hull of corners projected along the normal (A. Andrew's monotone chain, 1979). Merges corners
+/// closer to each other than `near`, and drops corners that close to an edge.
 Polygon hull_of(std::array<Corner, directions> points, double near) {
   std::ranges::sort(points, [](const Corner& a, const Corner& b) {
     return a.x < b.x || (a.x == b.x && a.y < b.y);
@@ -75,8 +75,7 @@ Polygon clipped(Polygon polygon, const Polygon& by, double near) {
   return polygon;
 }
 
-/// The polygon's height over a point within it: on its edges, or on the fan around its first
-/// corner.
+/// Height of the polygon at a point inside it: on its edges, or on the fan around its first corner.
 double height_over(const Polygon& polygon, double x, double y) {
   const Corner p{x, y, 0};
   for (int i = 1; i + 1 < polygon.count; ++i) {
@@ -102,7 +101,7 @@ double height_over(const Polygon& polygon, double x, double y) {
   return best;
 }
 
-/// A shape whose core's middle is at `middle`, as seen from A's.
+/// A shape whose core has its middle at `middle`, relative to A's.
 struct Seen {
   const ContactShape& shape;
   Mat3<double> turn;
@@ -118,7 +117,7 @@ struct Seen {
 
 class Manifold {
  public:
-  /// `point_a` is the nearest one of A, as seen from A's middle.
+  /// `point_a` is A's nearest point, relative to A's middle.
   Manifold(const SignedDistance& nearest, const Vec3<double>& point_a,
            const ManifoldOptions& options)
       : nearest_(nearest),
@@ -156,9 +155,9 @@ class Manifold {
     }
   }
 
-  /// The nearest point, the one furthest from it, the one that makes the largest triangle with
-  /// both, and the one on the other side of that which adds the most. Nearer to one than `near` is
-  /// none.
+  /// Picks the nearest point, the point furthest from it, the one that makes the largest triangle
+  /// with both, and the one on the other side that adds the most area. Skips points closer to a
+  /// picked one than `near`.
   ContactManifold best(double near) const {
     ContactManifold result;
     result.normal = nearest_.normal;
@@ -217,12 +216,12 @@ ContactManifold contact_manifold(const ContactShape& a, const Affine<double>& po
   const Seen seen_a{a, turn_in_world(a, pose_a), Vec3<double>::Zero()},
       seen_b{b, turn_in_world(b, pose_b), between_middles(a, pose_a, b, pose_b).x};
   const Polygon of_a = manifold.face(seen_a, 1, near), of_b = manifold.face(seen_b, -1, near);
-  // The part of a point or an edge within the other's face is kept.
+  // Keeps the part of a point or an edge inside the other shape's face.
   const Polygon common =
       of_a.count <= of_b.count ? clipped(of_a, of_b, near) : clipped(of_b, of_a, near);
   const bool has_face = std::max(of_a.count, of_b.count) > 2;
   if (has_face) manifold.add(common, of_a, of_b, options.within * size);
-  // The tilt itself moves support points of curved surfaces by so much.
+  // The tilt moves support points of curved surfaces by this distance.
   return manifold.best(3 * std::tan(options.tilt) * size);
 }
 

@@ -8,10 +8,10 @@
 namespace minkray {
 namespace {
 
-/// Computes each answer by itself, on all cores.
+/// Computes each result separately, on all cores.
 template <class Ask>
 void answer_all(std::span<SignedDistance> answers, const Ask& ask) {
-  constexpr std::size_t grain = 256;  // number that a thread takes at a time
+  constexpr std::size_t grain = 256;  // number of pairs that a thread takes at a time
   parallel_for(answers.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) answers[i] = ask(i);
   });

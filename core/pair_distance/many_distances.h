@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Many signed distances at once: one pair in many poses, or many pairs. Each answer has the bits
-// of signed_distance() by itself, whatever the number of threads.
+// Many signed distances at once: one pair in many poses, or many pairs. Results are bit-identical
+// to those of signed_distance() for any number of threads.
 #pragma once
 
 #include <span>
@@ -17,16 +17,16 @@ struct PosedPair {
   Affine<double> pose_b;
 };
 
-/// `answers` has as many places as there are pairs.
+/// Writes one answer per pair.
 void signed_distances(std::span<const PosedPair> pairs, std::span<SignedDistance> answers,
                       const SignedDistanceOptions& options = {});
 
-/// A is fixed, B is at one pose after the other.
+/// Returns the distances of A at one pose from B at each of `poses_b`.
 void signed_distances(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                       std::span<const Affine<double>> poses_b, std::span<SignedDistance> answers,
                       const SignedDistanceOptions& options = {});
 
-/// Keeps a memory for each pair: as many as pairs.
+/// Warm start: `memories` has one item per pair.
 void signed_distances(std::span<const PosedPair> pairs, std::span<PairMemory> memories,
                       std::span<SignedDistance> answers, const SignedDistanceOptions& options = {});
 

@@ -9,11 +9,11 @@
 namespace minkray {
 namespace {
 
-/// Relative to the sizes, support points and products with them are rounded by no more.
+/// Rounding error bound of support points and of products with them, relative to the sizes.
 constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
 
-/// An axis through a core's middle about which it is of revolution, but for points that are `off`
-/// from where they would be.
+/// An axis through a core's middle: the core's points are within `off` of a solid of revolution
+/// about this axis.
 struct Revolution {
   bool is_there = false;
   bool is_any = false;  ///< a point: any axis
@@ -39,8 +39,8 @@ Revolution revolution_of(const ShapeCore& core) {
   return found;
 }
 
-/// A half plane in A's frame, from the direction of a common axis, and by how much n.c differs at
-/// most from that of cores of revolution about axes in that direction.
+/// A half plane in A's frame, bounded by the direction of a common axis; and the largest difference
+/// of n.c from that of cores of revolution about axes in that direction.
 struct HalfPlane {
   Vec3<double> along, across;
   double off;
@@ -52,10 +52,11 @@ std::optional<HalfPlane> meridian_of(const CorePair& pair) {
   const Vec3<double> axis_b = unit<double>(pair.turn * b.axis);
   HalfPlane plane{a.is_any ? axis_b : a.axis, Vec3<double>::Zero(), a.off + b.off};
   const Vec3<double>& e = plane.along;
-  // B turns about its middle until its axis is A's. The angle is no more than twice its sine.
+  // Error of turning B about its middle until its axis is parallel to A's; the angle is at most
+  // twice its sine.
   if (!a.is_any && !b.is_any) plane.off += 2 * e.cross(axis_b).norm() * pair.b.ball;
   plane.across = unit<double>(pair.x - e.dot(pair.x) * e);
-  // Any half plane is as good for what lies along the axis but for rounding.
+  // If the middles lie along the axis to within rounding, any half plane is as good.
   const double aslant = std::abs(plane.across.dot(e));
   if (!(aslant < 0.5) || plane.across.isZero(0)) {
     plane.off += 2 * (pair.x - e.dot(pair.x) * e).norm();
@@ -73,7 +74,7 @@ struct Sample {
   double g = 0;
 
   double at(double other) const { return across * std::cos(other) + along * std::sin(other); }
-  /// The largest n.c from one angle to another.
+  /// Largest n.c between two angles.
   double most(double from, double to) const {
     const double peak = std::atan2(along, across);
     if (from < peak && peak < to) return std::hypot(across, along);
@@ -83,7 +84,7 @@ struct Sample {
 
 struct Arc {
   Sample from, to;
-  double bound = 0;   ///< g is no larger between the two
+  double bound = 0;   ///< upper bound of g between the two
   double middle = 0;  ///< direction where both bounds are equal, or halfway
 
   Arc(const Sample& first, const Sample& last) : from(first), to(last) {

@@ -10,16 +10,16 @@
 
 namespace minkray {
 
-/// Nothing if the cores are not of revolution about axes that are parallel but for a millionth, or
-/// if the bounds did not meet. The bounds allow for deviations from that; if these exceed the gap,
-/// the bounds hold and `is_exhausted`. `gap` is upper - lower, relative to the size and the
-/// distance of the middles. Starts from `known`; a and c are not found.
+/// Returns nothing if the cores are not of revolution about axes that are parallel to 1e-6, or if
+/// the bounds did not meet. The bounds include the deviation from parallel axes; if it exceeds the
+/// gap, the bounds hold and `is_exhausted` is set. `gap` is upper - lower, relative to the size and
+/// the distance of the middles. Starts from `known`; a and c are not set.
 ///
 /// g(n) = min n.c over c of C is n.x minus a function of the angle between n and the axes. At each
 /// angle the n with the largest n.x is in the half plane from the axis towards x, so only that half
 /// plane is searched: by branch and bound as in direction_bounds.h, over arcs instead of triangles.
-/// Between two directions, g is at most n.c of either one's support point: two sinusoids, each the
-/// lower one on its own side of their crossing.
+/// Between two directions, g is at most n.c for the support point c of either direction: two
+/// sinusoids, each the lower one on its own side of their crossing.
 std::optional<CoreDistance> bound_along_meridian(const CorePair& pair, const CoreDistance& known,
                                                  double gap);
 

@@ -12,10 +12,11 @@
 namespace minkray {
 namespace {
 
-/// Bounds and points of the shapes from those that `search` finds for their cores. Except for
-/// balls, sizes out of its range are not searched. `distance`: between the middles, with an error
-/// of at most `loss`. `to_world` turns from the frame of the search, whose origin is A's middle, at
-/// `origin`.
+/// Converts the bounds and points of the cores, as returned by `search`, to those of the shapes
+/// (cores grown by their radii). Returns an unknown result for sizes outside the searchable range
+/// (core/pair/searchable.h), except for balls. `distance`: distance of the middles, with an error
+/// of at most `loss`. `to_world` rotates vectors from the search's frame to the world. The search's
+/// origin is A's middle, which is `origin` in the world.
 template <class Search, class ToWorld>
 SignedDistance bounded(const Search& search, const ContactShape& a, const ContactShape& b,
                        double distance, double loss, const Vec3<double>& origin,
@@ -50,8 +51,9 @@ SignedDistance bounded(const Search& search, const ContactShape& a, const Contac
   const Vec3<double>& on_a = to_world(found.a);
   const Vec3<double>& between = to_world(found.c);
   result.normal = unit<double>(axis);
-  // If the line between the cores' points deviates from the normal, the radii make up for it: the
-  // bodies' points lie along the normal, `value` apart. Closed forms have one direction for both.
+  // If the line between the cores' points is not parallel to the normal, the radii are applied
+  // along `outwards` instead, so that the bodies' points differ by `value` times the normal. In
+  // closed forms that line and the normal are parallel.
   const bool is_aside = is_from_points && found.lower < found.upper && radii > 0;
   const Vec3<double> outwards =
       is_aside ? unit<double>(between - std::min(result.value, 0.0) * result.normal) : axis;
@@ -60,7 +62,8 @@ SignedDistance bounded(const Search& search, const ContactShape& a, const Contac
   return result;
 }
 
-/// Two bodies that have been brought near, and A's middle in the frame of the reported points.
+/// Two bodies with the vector between their middles, which replaces both translations; `origin` is
+/// A's middle in the frame of the reported points.
 struct NearBodies {
   const ContactShape& a;
   const Mat3<double>& linear_a;
@@ -70,7 +73,7 @@ struct NearBodies {
   Vec3<double> origin;
 };
 
-/// Both are points: balls around their middles.
+/// Both cores are points, so both shapes are balls around their middles.
 SignedDistance of_balls(const NearBodies& near) {
   const Vec3<double>& x = near.between.x;
   const auto search = [&] {
@@ -80,7 +83,7 @@ SignedDistance of_balls(const NearBodies& near) {
                  [](const Vec3<double>& v) -> const Vec3<double>& { return v; });
 }
 
-/// Both are points or segments. No frame of either is needed.
+/// Both cores are points or segments: the search needs no frame of a body.
 SignedDistance of_lines(const NearBodies& near) {
   const auto half = [](const ContactShape& shape, const Mat3<double>& linear) -> Vec3<double> {
     if (shape.core().kind == CoreKind::point) return Vec3<double>::Zero();
@@ -94,7 +97,7 @@ SignedDistance of_lines(const NearBodies& near) {
                  [](const Vec3<double>& v) -> const Vec3<double>& { return v; });
 }
 
-/// A is a point, B a box or disks. A's frame is not needed.
+/// A's core is a point; B's is a box, or the hull of two disks (cylinder, frustum).
 SignedDistance of_point_and_solid(const NearBodies& near) {
   const Mat3<double> turn = turn_in_world(near.b, near.linear_b);
   const auto search = [&] {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The distance of two curved cores to second order. Each point that GJK has lies on a feature of
-// the surface that slides when the direction d turns. With S the weighted sum of the features'
-// derivatives, the closest point of the sliding features is, to second order, that of points in the
-// metric H = I + S |d| / gap, by GJK's own simplex code. With S = 0 this is GJK, with one feature
-// it is Newton's method.
+// Distance of two curved cores to second order. Each point of GJK's simplex lies on a feature of
+// the surface and slides along it when the direction d turns. With S the weighted sum of the
+// features' derivatives, the closest point of the sliding features is, to second order, the closest
+// point of fixed points in the metric H = I + S |d| / gap, found by GJK's simplex code. With S = 0
+// this is GJK, with one feature Newton's method.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,8 @@ class SlidingFeatures {
  public:
   explicit SlidingFeatures(CoreQuery<A, B>& query) : query_(query) {}
 
-  /// Adds a point that GJK has, by the features that it lies on: points of the same ones are one.
+  /// Adds a point of GJK's simplex by the features that it lies on; points on the same features
+  /// count as one.
   void add(int feature_a, int feature_b, double weight) {
     for (int i = 0; i < count_; ++i)
       if (feature_a_[i] == feature_a && feature_b_[i] == feature_b) {
@@ -28,13 +29,13 @@ class SlidingFeatures {
     append(feature_a, feature_b, weight);
   }
 
-  /// Searches from the direction d; its first step is damped by so much, in sizes: mixed faces and
-  /// rims need it. Returns whether it came to an answer.
+  /// Searches from the direction d. `damping`, in sizes, is that of the first step: pairs of a face
+  /// and a rim need it. Returns true if a result was found.
   bool run(const Vec3<double>& d, double damping);
 
-  /// The direction around d in which the gap of cores that overlap is the largest: one of those in
-  /// which their depth may be seen, to about 1e-7. Nothing is proven but the gaps on the way.
-  /// Returns whether it was found.
+  /// Finds the direction near d with the largest gap of overlapping cores, to about 1e-7: a local
+  /// optimum, which may be the direction of the depth. Only the gaps found are proven. Returns true
+  /// if found.
   bool settle(const Vec3<double>& d) {
     is_direction_asked_ = true;
     run(d, first_damping);
@@ -42,16 +43,16 @@ class SlidingFeatures {
   }
   const Vec3<double>& direction() const { return direction_; }
 
-  /// Finds the same direction to rounding, by Newton's method from one that is off by less than
-  /// `turn`: that of a peak on one feature, on the crease of two, or on a corner of more. Returns
-  /// whether it was found.
+  /// Finds the same direction to rounding, by Newton's method from a direction that is off by less
+  /// than `turn`: at a peak on one feature, on the crease of two, or at a corner of more. Returns
+  /// true if found.
   bool sharpen(const Vec3<double>& d, double turn);
-  /// The points that sharpen() has ended with: one of A, and from it to one of B.
+  /// Points found by sharpen(): a point of A, and the vector from it to a point of B.
   const Vec3<double>& sharp_a() const { return sharp_a_; }
   const Vec3<double>& sharp_c() const { return sharp_c_; }
 
-  /// Calls f(point) with points of C around the one that settle() has found: those of each feature
-  /// in three directions turned by so much.
+  /// Calls f(point) with points of C around the one that settle() found: those of each feature in
+  /// three directions at the angle `turn`.
   template <class F>
   void around(double turn, const F& f) const {
     const Vec3<double> e0 = direction_.unitOrthogonal(), e1 = direction_.cross(e0);
@@ -64,7 +65,7 @@ class SlidingFeatures {
 
   static constexpr double first_damping = 0.1;
 
-  /// The features that carry the closest point.
+  /// Stores the features that carry the closest point.
   void remember(PairMemory& memory) const {
     memory.count = count_;
     std::copy(feature_a_, feature_a_ + count_, memory.feature_a);
@@ -92,7 +93,7 @@ class SlidingFeatures {
       const double x = p.x() * i0, y = (p.y() - l10 * x) * i1;
       return {x, y, (p.z() - l20 * x - l21 * y) * i2};
     }
-    /// L^-T v: the direction in space of a closest point in the metric.
+    /// L^-T v: converts a closest point in the metric to a direction in space.
     Vec3<double> out_of(const Vec3<double>& v) const {
       const double z = v.z() * i2, y = (v.y() - l21 * z) * i1;
       return {(v.x() - l10 * y - l20 * z) * i0, y, z};
@@ -125,8 +126,8 @@ class SlidingFeatures {
 
   bool is_inside(const Vec3<double>& n, double depth, const Vec3<double>* z, Vec3<double>& common);
 
-  /// Newton's method on the gap, of one feature that slides: S - depth is what it bends by. False
-  /// where that is no peak.
+  /// One step of Newton's method on the gap of one sliding feature, with curvature S - depth.
+  /// Returns false if that is no peak.
   static bool climb(const Symmetric& S, double depth, const Vec3<double>& n, const Vec3<double>& v,
                     Vec3<double>& next) {
     const Vec3<double> e0 = n.unitOrthogonal(), e1 = n.cross(e0), s0 = S * e0, s1 = S * e1;
@@ -136,14 +137,14 @@ class SlidingFeatures {
     if (!(trace > 0 && determinant > flattest * trace * trace)) return false;
     const double q0 = e0.dot(v), q1 = e1.dot(v);
     const double m0 = (b11 * q0 - b01 * q1) / determinant, m1 = (b00 * q1 - b01 * q0) / determinant;
-    constexpr double furthest = 0.5;  // radians: beyond it the bend is another one
+    constexpr double furthest = 0.5;  // radians; the curvature is not the same further away
     if (!(m0 * m0 + m1 * m1 < furthest * furthest)) return false;
     next = (n + m0 * e0 + m1 * e1).normalized();
     return true;
   }
 
-  /// A step of sharpen(): the weights of the features, and the direction that is next. False where
-  /// that is no peak. `least` is the feature of the least weight.
+  /// One step of sharpen(): computes the features' weights and the next direction. Returns false if
+  /// that is no peak. `least` is the feature with the least weight.
   bool step_to_peak(const Vec3<double>& n, Vec3<double>& next, int& least);
 
   CoreQuery<A, B>& query_;
@@ -155,8 +156,8 @@ class SlidingFeatures {
   double weight_[4];
 };
 
-/// True if the origin is within a tetrahedron of C's middle and three points around n, in whose
-/// direction C ends at -depth; `common` is the point of its weights.
+/// True if C's middle and three points around n, in whose direction C ends at -depth, form a
+/// tetrahedron that contains the origin; `common` is their weighted sum.
 template <CoreKind A, CoreKind B>
 bool SlidingFeatures<A, B>::is_inside(const Vec3<double>& n, double depth, const Vec3<double>* z,
                                       Vec3<double>& common) {
@@ -164,7 +165,8 @@ bool SlidingFeatures<A, B>::is_inside(const Vec3<double>& n, double depth, const
   const auto holds = [&](const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& r) {
     const Vec3<double> corners[4] = {p, q, r, query_.pair.x};
     const SimplexPoint closest = closest_of_simplex(corners, 4, false);
-    // Rounding may give a wrong result: its quality is how near to the origin the weights come.
+    // Rounding may give a wrong result: the weighted sum's distance from the origin shows how
+    // wrong.
     common = Vec3<double>::Zero();
     for (int i = 0; i < 4; ++i) common += closest.weight[i] * corners[i];
     return closest.is_inside();
@@ -226,7 +228,7 @@ bool SlidingFeatures<A, B>::run(const Vec3<double>& d, double damping) {
     }
     if (v.norm() - query_.result.lower <= query_.gap)
       return query_.end_at(CoreStatus::separated, on_a, v);
-    // If the gap is small or negative, C is moved until there is one.
+    // If the gap is small or negative, C is moved away until the gap is `least`.
     const double least = query_.size * std::max(1e-4, damping);
     const double shift = gap > least ? 0 : least - gap;
     if (shift > 0 && gap <= 0 && is_known) {
@@ -288,7 +290,7 @@ bool SlidingFeatures<A, B>::step_to_peak(const Vec3<double>& n, Vec3<double>& ne
     if (!(squared > thinnest * thinnest * u.squaredNorm() * v.squaredNorm())) return false;
     next = plane / std::sqrt(squared);
     if (next.dot(n) < 0) next = -next;
-    // The plane's point nearest to the origin, by areas.
+    // Weights of the plane's point nearest to the origin, by areas.
     const Vec3<double> to_foot = next.dot(on[0].c) * next - on[0].c;
     weight_[1] = to_foot.cross(v).dot(plane) / squared;
     weight_[2] = u.cross(to_foot).dot(plane) / squared;

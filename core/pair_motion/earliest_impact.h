@@ -7,14 +7,14 @@
 namespace minkray {
 
 struct EarliestImpact {
-  /// `t_lo` is before all contacts; the rest is of the body that is touched first, or of that whose
-  /// time is not known, or of a body that is missed.
+  /// `t_lo` is before all contacts. All other members are of one body: the one that is touched
+  /// first; without contact, one whose time is unknown or one that is missed.
   Impact impact;
   std::size_t body = none;
   static constexpr std::size_t none = ~std::size_t{0};
 };
 
-/// Nothing is met until t_max.
+/// Result for no contact up to t_max.
 inline EarliestImpact nothing_met(double t_max) {
   EarliestImpact found;
   found.impact.status = ImpactStatus::miss;
@@ -23,7 +23,7 @@ inline EarliestImpact nothing_met(double t_max) {
   return found;
 }
 
-/// Merges the body's result, which was computed for times until found.impact.t_hi, or all.
+/// Merges a body's result into `found`. The result must cover the times up to found.impact.t_hi.
 inline void take(EarliestImpact& found, std::size_t body, const Impact& impact) {
   if (impact.status == ImpactStatus::miss) return;
   const double t_lo = std::min(found.impact.t_lo, impact.t_lo);

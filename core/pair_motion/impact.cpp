@@ -10,18 +10,18 @@
 namespace minkray {
 namespace {
 
-/// A body's own rounding, relative to its size and its pivot's way.
+/// Rounding of a body's pose, relative to its size and its pivot's displacement.
 constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
 
-/// Bodies that part are checked again after at least this part of the requested time, or of that
-/// in which they turn by a radian.
+/// Least time after which bodies that part are checked again, as a fraction of the requested time,
+/// or of the time in which they turn by a radian.
 constexpr double first_step = 1e-30;
 
-/// Number of distances at single times that may run out of support points before the impact is
-/// exhausted: those of infinite bodies all do, and each takes as long as a thousand others.
+/// Number of distance queries that may run out of support points before the impact is exhausted.
+/// With infinite bodies all queries do, and each takes as long as a thousand others.
 constexpr int most_exhausted = 10;
 
-/// A body that may turn, seen from its pivot; one that does not turn is seen from its middle.
+/// A body that may turn, relative to its pivot, or to its middle if it does not turn.
 class Turning {
  public:
   Turning(const ContactShape& shape, const RigidMotion& motion)
@@ -32,7 +32,7 @@ class Turning {
   }
 
   double speed() const { return speed_; }  ///< radians per unit of time
-  /// No point is further from the axis.
+  /// Upper bound of the distance of points from the axis.
   double reach() const { return reach_; }
   double arm_length() const { return reach_ - shape_.ball_radius(); }
 
@@ -48,7 +48,7 @@ class Turning {
     return {turn * motion_.pose.linear, turn * arm_};
   }
 
-  /// The support function in a direction of the world.
+  /// Support function for a direction in the world.
   double support(const Affine<double>& there, const Vec3<double>& n) const {
     const Mat3<double> turn = turn_in_world(shape_, there.linear);
     const Vec3<double> d = turn.transpose() * n;
@@ -87,7 +87,7 @@ class Advance {
     touching_ = options.touching * size_;
   }
 
-  /// Result of a miss: a plane with this normal separates the two until the end.
+  /// Result of a miss: a plane with this normal separates the bodies until the end.
   Impact run_missed(const Vec3<double>& normal) {
     bring_near();
     return miss(t_max_, normal);
@@ -95,12 +95,12 @@ class Advance {
 
   Impact run() {
     bring_near();
-    // Every step begins with what the one before it has found.
+    // Every step starts from the final state of the previous step.
     PairMemory of_steps;
     if (!memory_) memory_ = &of_steps;
     SignedDistance now = at(0);
     if (gave_up(now)) return give_up(0, now);
-    // The contact at the start counts unless the two part.
+    // The contact at the start counts unless the bodies part.
     if (now.upper < 0 || (now.value <= touching_ && approach(now, 0) <= parting()))
       return finish(ImpactStatus::inside, 0, 0, now);
     double t = 0;
@@ -128,19 +128,19 @@ class Advance {
     return result_.steps < options_.max_steps && exhausted_ < most_exhausted;
   }
 
-  /// True if a distance looks like a contact only since its search ended without an upper bound,
-  /// or with one too far away to be a contact.
+  /// True if the distance's search ended without an upper bound, or with one too large for a
+  /// contact: the lower bound alone does not show a contact.
   bool gave_up(const SignedDistance& now) const {
     return now.is_unknown() || (now.value <= touching_ && now.upper > 2 * touching_);
   }
 
-  /// After a time until which they do not meet.
+  /// Ends undecided, with no contact up to t.
   Impact give_up(double t, const SignedDistance& now) {
     return finish(ImpactStatus::undecided, t, std::numeric_limits<double>::infinity(), now);
   }
 
-  /// All that follows is seen from A, so that no number is larger than the bodies' sizes, their
-  /// distance and their ways.
+  /// Makes all positions relative to A, so that no number exceeds the bodies' sizes, their distance
+  /// and their displacements.
   void bring_near() {
     const PlacedMiddle of_a = turning_a_.seen_from(), of_b = turning_b_.seen_from();
     start_ = {(of_b.at - of_a.at).rounded(), of_a.loss + of_b.loss};
@@ -163,8 +163,8 @@ class Advance {
     return there;
   }
 
-  /// The upper bound is no more than 0 only if they overlap. GJK alone is tried first, and cases
-  /// that it leaves open are searched at some cost.
+  /// The upper bound is at most 0 only if the bodies overlap. Tries GJK alone first; cases that it
+  /// leaves open take a more expensive search.
   SignedDistance overlap_at(double t) {
     SignedDistanceOptions how;
     how.only_sign = true;
@@ -184,19 +184,19 @@ class Advance {
     return signed_distance(a_, at_a.linear, b_, at_b.linear, between, how, memory_);
   }
 
-  /// The speed at which the nearest points part, negative if they approach.
+  /// Speed at which the nearest points separate; negative if they approach.
   double approach(const SignedDistance& now, double t) const {
     const Vec3<double> arm_a = turning_a_.at(t).translation,
                        arm_b = start_.x + t * velocity_ - arm_a;
     return now.normal.dot(velocity_ + turning_b_.velocity_of(now.point_b - arm_b) -
                           turning_a_.velocity_of(now.point_a + arm_a));
   }
-  /// Slower is rest.
+  /// Speed below which bodies count as at rest.
   double parting() const { return options_.touching * speed_; }
 
-  /// After a contact at time 0 that parts, finds a time at which the bodies are apart, or minus a
-  /// time at which they overlap. Turning bodies may come back: the first check is when they may be
-  /// apart at the earliest, and the time is doubled from there.
+  /// After a contact at time 0 at which the bodies part: returns a time at which they are apart, or
+  /// minus a time at which they overlap. Turning bodies may come back: the first check is at the
+  /// earliest time at which they may be apart; then the time is doubled.
   double leave(const SignedDistance& now) {
     const double turning = std::max(turning_a_.speed(), turning_b_.speed()), apart = 4 * touching_;
     const double at_this_speed = apart / approach(now, 0);
@@ -213,7 +213,7 @@ class Advance {
     return t_max_;
   }
 
-  /// A fixed plane's gap at a time, and the two support functions along its normal.
+  /// Gap of a fixed plane at a time, and both support functions along its normal.
   struct Gap {
     double gap, h_a, h_b;
   };
@@ -223,7 +223,8 @@ class Advance {
     return {n.dot(start_.x + t * velocity_) - h_a - h_b, h_a, h_b};
   }
 
-  /// No contact from t to the time returned, which is later unless digits are lacking.
+  /// Proves that there is no contact from t to the returned time, which is later than t unless
+  /// digits are lacking.
   double proven_until(double t, double t_end, const SignedDistance& now) {
     constexpr double largest_turn = 1;  // radians in one step
     const Vec3<double> n = now.normal;
@@ -255,7 +256,7 @@ class Advance {
     if (options_.points_of_misses) {
       const SignedDistance there = at(t_end);
       if (!there.is_unknown()) return finish(ImpactStatus::miss, t_end, t_end, there);
-      // Their distance then exceeds the range of numbers.
+      // The distance then exceeds the range of numbers.
       result_.distance = std::numeric_limits<double>::infinity();
     }
     result_.normal = normal;
@@ -264,11 +265,11 @@ class Advance {
     return result_;
   }
 
-  /// The bodies touch at t, to rounding; finds when they do for sure.
+  /// Called if the bodies touch at t, to rounding: finds a time at which they touch with certainty.
   Impact meet(double t, double t_end, const SignedDistance& now) {
     double t_hi = t;
     if (now.upper > 0) {
-      // Moves into each other, if they continue; if not, coming so near is a contact.
+      // Moves on until they overlap, if they approach; otherwise coming this close is a contact.
       const double speed = -approach(now, t);
       constexpr double deep = 0.5;
       double later = std::max((2 * now.upper + deep * touching_) / std::max(speed, 1e-6 * speed_),
@@ -303,18 +304,18 @@ class Advance {
   const ContactShape &a_, &b_;
   const RigidMotion &of_a_, &of_b_;
   Turning turning_a_, turning_b_;
-  Vec3<double> velocity_;  ///< of B, as A sees it
-  Between start_;          ///< from where A is seen from to where B is, at time 0
+  Vec3<double> velocity_;  ///< of B relative to A
+  Between start_;          ///< from A's reference point to B's, at time 0
   double t_max_;
   PairMemory* memory_;
   const ImpactOptions& options_;
   double size_ = 0, speed_ = 0, touching_ = 0;
-  int exhausted_ = 0;  ///< of the distances at single times
+  int exhausted_ = 0;  ///< number of exhausted distance queries
   Impact result_;
 };
 
-/// Without turns the impact is where a ray meets the difference of the two. Open for contacts at
-/// the start and for grazing ones; a miss has a normal only.
+/// Impact without rotation: a ray cast at the difference of the bodies. Returns `open` for contacts
+/// at the start and grazing contacts; a miss only has a normal.
 SweptStatus swept_impact(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
                          const RigidMotion& motion_b, double t_max, const ImpactOptions& options,
                          PairMemory* memory, Impact& result) {
@@ -335,7 +336,7 @@ SweptStatus swept_impact(const ContactShape& a, const RigidMotion& motion_a, con
     result.status = ImpactStatus::hit;
     result.t_lo = swept.t_lo;
     result.t_hi = std::max(swept.t_lo, swept.t_hi);
-    // The point is one of both at t_hi: at t_lo the second is so much further back.
+    // The point belongs to both bodies at t_hi; at t_lo the second body is this much further back.
     const Vec3<double> back = (result.t_hi - result.t_lo) * velocity;
     result.point_a = result.point_b =
         middle_in_world(first, of_first.pose) + to_world(swept.a) + result.t_lo * of_first.velocity;

@@ -8,8 +8,8 @@
 
 namespace minkray {
 
-/// Pose of a body at time 0 and its motion: its pivot by `velocity`, and about its pivot by
-/// `angular_velocity`, in the world, radians per unit of time.
+/// Pose of a body at time 0 and its motion: `velocity` moves its pivot, `angular_velocity` turns
+/// the body about its pivot (world axes, radians per unit of time).
 struct RigidMotion {
   Affine<double> pose;  ///< rigid; the translation is the pivot
   Vec3<double> velocity = Vec3<double>::Zero();
@@ -22,7 +22,7 @@ enum class ImpactStatus : unsigned char {
   miss,       ///< no contact before t_max
   hit,        ///< the first contact is between t_lo and t_hi
   inside,     ///< overlap at time 0, or touch and approach each other
-  undecided,  ///< none before t_lo; no more is known
+  undecided,  ///< no contact before t_lo; not known after it
 };
 
 constexpr std::string_view name_of(ImpactStatus status) {
@@ -41,30 +41,28 @@ constexpr std::string_view name_of(ImpactStatus status) {
 
 struct Impact {
   ImpactStatus status = ImpactStatus::undecided;
-  double t_lo = 0;  ///< apart before this; if they touch at 0 and part, from just after 0
-  double t_hi = std::numeric_limits<double>::infinity();  ///< touch or overlap here
-  /// These are at t_lo, of misses at t_max: the nearest points, and the normal from A to B, in the
-  /// world.
+  double t_lo = 0;  ///< apart before this; if they touch at 0 and part: apart from just after 0
+  double t_hi = std::numeric_limits<double>::infinity();  ///< the bodies touch or overlap here
+  /// Nearest points and normal from A to B at t_lo (for a miss: at t_max), in the world.
   Vec3<double> point_a = Vec3<double>::Zero();
   Vec3<double> point_b = Vec3<double>::Zero();
   Vec3<double> normal = Vec3<double>::Zero();
-  double distance = 0;  ///< between them at t_lo; infinite where it is not known, without points
+  double distance = 0;  ///< of the bodies at t_lo; infinite if unknown, then without points
   int steps = 0;        ///< number of distance queries
 };
 
 struct ImpactOptions {
   /// Bodies nearer to each other than this times the sum of their sizes count as touching, so
-  /// those that pass each other as near as that are a hit. The other way round nothing is given
-  /// away: what is called a miss is one.
+  /// passing each other that closely is a hit. A reported miss is always a miss.
   double touching = 1e-10;
   int max_steps = 2000;
-  /// True if the nearest points at t_max are wanted for misses; the normal is set anyway.
+  /// Compute the nearest points at t_max for misses; the normal is always set.
   bool points_of_misses = true;
 };
 
-/// The first contact of A and B at times from 0 to t_max. Bodies that touch at time 0 (to
+/// Finds the first contact of A and B at times from 0 to t_max. Bodies that touch at time 0 (to
 /// `touching`) are `inside` if they approach each other at the contact, or rest; if they part, the
-/// next contact is looked for.
+/// next contact is searched for.
 ///
 /// A plane between the bodies is kept fixed from a time at which they are apart. While a body turns
 /// by an angle theta, its extent along the plane's normal n is h(n(tau)): h is its support function
@@ -75,9 +73,10 @@ struct ImpactOptions {
 Impact first_impact(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
                     const RigidMotion& motion_b, double t_max, const ImpactOptions& options = {});
 
-/// Begins with what the last query on this pair left in `memory`, and leaves there what it ended
-/// with: the plane of a miss is a miss's proof in the next frame, too. The bounds hold whatever is
-/// in it; the answer's last digits depend on it.
+/// Warm start: begins from the state that the last query on this pair stored in `memory`, and
+/// stores its own final state there: the plane that proves a miss often proves one in the next
+/// frame, too. The bounds hold for any contents of `memory`; the result's last digits depend on
+/// them.
 Impact first_impact(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
                     const RigidMotion& motion_b, double t_max, PairMemory& memory,
                     const ImpactOptions& options = {});

@@ -9,30 +9,30 @@
 
 namespace minkray {
 
-/// Two bodies whose places are known for every s of [0, 1].
+/// Two bodies whose poses are known for every s in [0, 1].
 class MovingPair {
  public:
   virtual ~MovingPair() = default;
 
   /// The signed distance at s; beyond `at_most` a lower bound is enough.
   virtual SignedDistance at(double s, double at_most) const = 0;
-  /// The gap along n at s, or a little less for rounding; `n` is in the frame in which the bounds
-  /// below hold, and so is `at(s).normal`.
+  /// Lower bound of the gap along n at s, tight up to rounding. `n` and `at(s).normal` are in the
+  /// frame in which the bounds below hold.
   virtual double gap(const Vec3<double>& n, double s) const = 0;
 
-  double size = 0;          ///< of both together: what tolerances are relative to
-  double speed = 0;         ///< no point of B moves faster relative to one of A
-  double acceleration = 0;  ///< nor accelerates by more
-  double least =
-      -std::numeric_limits<double>::infinity();  ///< pairs without depth have no less than 0
+  double size = 0;          ///< of both bodies together; tolerances are relative to it
+  double speed = 0;         ///< bound of the relative speed of any point of B and any of A
+  double acceleration = 0;  ///< bound of their relative acceleration
+  /// Lower bound of all distances: 0 for pairs without depth.
+  double least = -std::numeric_limits<double>::infinity();
 };
 
 struct LeastDistanceOptions {
-  /// The search ends when the bounds are as near to each other as this, or as this part of the
-  /// least distance.
+  /// The search ends when the bounds differ by at most `gap`, or by `relative_gap` times the least
+  /// distance.
   double gap = 0;
   double relative_gap = 0;
-  /// The search also ends when the distance is known to be no less than this minus the gap.
+  /// The search also ends when the distance is proven to be at least this minus the gap.
   double enough = std::numeric_limits<double>::infinity();
   int max_distances = 20000;
 };
@@ -48,9 +48,10 @@ struct LeastDistance {
 
 /// Searches until the bounds are as near as `options` requires.
 ///
-/// A plane with normal n separates the two by the gap g(n, s) at a time s, which is at most their
-/// signed distance. For a fixed n the gap is the least n.(q - p) over points p of A and q of B, and
-/// each of those bends by no more than q - p accelerates. So on [s0, s1] the distance is at least
+/// A plane with normal n separates the bodies by the gap g(n, s) at a time s, which is at most
+/// their signed distance. For a fixed n the gap is the least n.(q - p) over points p of A and q of
+/// B; as a function of s, each n.(q - p) has a second derivative of at most `acceleration`. So on
+/// [s0, s1] the distance is at least
 ///
 ///   min(g(n, s0), g(n, s1)) - acceleration * (s1 - s0)^2 / 8   for any n, and
 ///   (d(s0) + d(s1) - speed * (s1 - s0)) / 2                    since `speed` bounds its rate.
@@ -58,7 +59,7 @@ struct LeastDistance {
 /// The interval with the least bound is halved until the bound is near the least distance found.
 LeastDistance least_distance(const MovingPair& pair, const LeastDistanceOptions& options);
 
-/// The gap of two shapes along a unit vector n of the world, or a little less for rounding.
+/// Lower bound of the gap of two shapes along a unit vector n of the world, tight up to rounding.
 double gap_along(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                  const Affine<double>& pose_b, const Vec3<double>& n);
 double gap_along(const ContactShape& a, const Mat3<double>& linear_a, const ContactShape& b,

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Time of impact of curved cores to second order, by sequential quadratic programming. The planes
-// with normal n, n.u = -1 (u along the motion), that keep C on one side give a concave function of
-// n, whose maximum is the time: the least of one function per feature (sliding_features.h).
+// Time of impact of curved cores to second order, by sequential quadratic programming. The
+// supporting planes with normal n, n.u = -1 (u along the motion), give a lower bound of the time, a
+// concave function of n whose maximum is the time: the minimum of one function per feature
+// (sliding_features.h).
 #pragma once
 
 #include "core/pair_motion/swept_query.h"
 
 namespace minkray {
 
-/// Near the current n, feature i gives t_i + q_i.m - m S m / 2: q_i is its shadow and S the
-/// features' curvature. The best m for the least of them comes from the dual, a quadratic program
-/// of at most four weights, which is solved by trying all subsets.
+/// Near the current n, feature i gives t_i + q_i.m - m S m / 2, where q_i is its projection and S
+/// the features' curvature. The m that maximises the minimum of these comes from the dual, a
+/// quadratic program of at most four weights, which is solved by trying all subsets.
 template <CoreKind A, CoreKind B>
 class SlidingPortal {
  public:
   explicit SlidingPortal(SweptQuery<A, B>& query) : query_(query) {}
 
-  /// Adds a point of the portal, by the features that it lies on: points of the same ones are one.
+  /// Adds a point of the portal by the features that it lies on; points on the same features count
+  /// as one.
   void add(int feature_a, int feature_b, double weight) {
     for (int i = 0; i < count_; ++i)
       if (feature_a_[i] == feature_a && feature_b_[i] == feature_b) {
@@ -26,10 +28,11 @@ class SlidingPortal {
     append(feature_a, feature_b, weight);
   }
 
-  /// Searches from the normal n, which faces against the motion. Returns whether that decided.
+  /// Searches from the normal n, which faces against the motion. Returns true if that decided the
+  /// query.
   bool run(const Vec3<double>& n) {
     Vec3<double> nd = n / -n.dot(query_.along);
-    double damping = 0.1;  // of the first step, in sizes: mixed faces and rims need it
+    double damping = 0.1;  // of the first step, in sizes: pairs of a face and a rim need it
     for (int step = 0; step < most_turns; ++step, damping = step < 7 ? damping * 0.1 : 0) {
       const SweptPoint w = query_.support(nd);
       if (query_.judge(nd, w)) return true;
@@ -93,7 +96,7 @@ class SlidingPortal {
     return is_along(query_.pair.a, nd) || is_along(query_.pair.b, query_.pair.to_b(nd));
   }
 
-  /// The next normal, and the weights that belong to it.
+  /// Computes the next normal and its weights.
   bool advance(const Symmetric& S, const SweptPoint* z, double damping, Vec3<double>& nd) {
     const Vec3<double> s0 = S * query_.e0, s1 = S * query_.e1;
     const double least = query_.size * (damping + 1e-9);
@@ -124,8 +127,8 @@ class SlidingPortal {
     return kept > 0;
   }
 
-  /// The weights w, none negative, their sum 1, with the least t.w + w Q w / 2: it is of rank 2, so
-  /// three of them do.
+  /// Finds weights w >= 0 with sum 1 that minimise t.w + w Q w / 2. Q has rank 2, so at most three
+  /// weights are not 0.
   bool least_of_subsets(const double* t, const double (*Q)[4], double* best) const {
     double least = std::numeric_limits<double>::infinity();
     const auto take = [&](double value, int i, double u, int j, double v, int k, double w) {
@@ -157,8 +160,8 @@ class SlidingPortal {
     return least < std::numeric_limits<double>::infinity();
   }
 
-  /// The best normal is found: three points near it around the origin's shadow prove the time from
-  /// above.
+  /// Called at the best normal: three points near it whose projections enclose the origin prove an
+  /// upper bound of the time.
   bool surround(const Vec3<double>& nd, const SweptPoint* z) {
     const double length = nd.norm();
     double turn = 3e-6 * length;

@@ -7,7 +7,7 @@ namespace minkray {
 
 Shape<double> swept(const Shape<double>& shape, const Affine<double>& from,
                     const Affine<double>& to, double acceleration) {
-  // The roundings of the poses' own numbers.
+  // Allows for the rounding of the poses' numbers.
   constexpr double padding = 1 + 16 * std::numeric_limits<double>::epsilon();
   const HullOf<double> ends{{Nested<double>(Shape<double>(Transform<double>{shape, from})),
                              Nested<double>(Shape<double>(Transform<double>{shape, to}))}};
@@ -35,7 +35,7 @@ double distance_from_axis(const Shape<double>& shape, const Vec3<double>& axis) 
     const Vec3<double> n = std::cos(angle) * u + std::sin(angle) * v;
     most = std::max(most, n.dot(shape.support(n)));
   }
-  // The polygon of those half-planes has its corners so much further out.
+  // The corners of the half-planes' polygon are further out by this factor.
   return most / std::cos(std::numbers::pi / directions);
 }
 

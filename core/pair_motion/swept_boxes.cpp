@@ -30,8 +30,7 @@ class BoxSweep {
       if (!pass(R.col(j).dot(x), R.col(j).dot(velocity_), b[j] + Q.col(j).dot(a), 1, -1, j))
         return result_;
     if (is_passed()) return miss();
-    // All products are with the axis itself, so that edges which are nearly parallel lose no
-    // digits.
+    // Products use the axis itself, so that nearly parallel edges lose no digits.
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
         const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
@@ -51,15 +50,15 @@ class BoxSweep {
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  /// The ray is at s + t v of the slab between -reach and reach; numbers are relative to the
-  /// length of the slab's normal, or a little more. Returns true to continue. The last slab to be
-  /// entered cannot be foreseen: it is searched once, at the end.
+  /// Clips the ray by a slab: at time t it is at s + t v, and the slab goes from -reach to reach;
+  /// numbers are relative to the length of the slab's normal, or slightly more. Returns true to
+  /// continue. The slab that is entered last is only known at the end.
   bool pass(double s, double v, double reach, double length, int i, int j) {
     const double allowed = rounding_ * length, sign = std::copysign(1.0, v), speed = sign * v;
     slabs_[count_] = {i, j};
     sides_[count_] = -sign;
     if (speed == 0) {
-      // Outside of it for ever, between its planes for ever, or too near to decide.
+      // Always outside of the slab, always inside, or too close to decide.
       if (std::abs(s) < reach - allowed) return true;
       if (std::abs(s) - reach > near_ * length + allowed) {
         sides_[count_] = s < 0 ? -1 : 1;
@@ -68,7 +67,7 @@ class BoxSweep {
       }
       return false;
     }
-    // The gap to the plane that the ray comes from, which shrinks by speed * t.
+    // Gap to the plane that the ray approaches; decreases by speed * t.
     const double gap = -sign * s - reach, per_speed = 1 / speed;
     in_[count_] = (gap - allowed) * per_speed;
     out_[count_] = (gap + 2 * reach) * per_speed;
@@ -105,8 +104,8 @@ class BoxSweep {
     return n.dot(nearest_along<CoreKind::box, CoreKind::box>(pair_, n).c) - rounding_;
   }
 
-  /// One plane lies between them at all times: that which is not yet passed, that which is left, or
-  /// one between the two, along which nothing moves.
+  /// Sets a plane that separates the boxes at all times: of the slab entered last, of the slab left
+  /// first, or one between the two that is parallel to the motion.
   SweptTime miss() {
     if (count_ == 0) return result_;
     const Vec3<double> n_in = normal_of(entered(), 1), n_out = normal_of(left(), -1);
@@ -135,7 +134,8 @@ class BoxSweep {
     return result_;
   }
 
-  /// The point of A that B meets. False where an edge or a face lies in the plane of contact.
+  /// Finds the point of A that touches B. Returns false if an edge or a face lies in the contact
+  /// plane.
   bool find_point() {
     const Vec3<double>& n = result_.axis;
     const Vec3<double> x = pair_.x + result_.t_hi * velocity_;

@@ -9,9 +9,9 @@
 namespace minkray {
 namespace {
 
-/// Signed distance at a time, in the frame of the search. A plane between the two at any time keeps
-/// them apart until it meets them, so that steps may be bold: `guess` proposes the time of contact
-/// of the features that are nearest at a time.
+/// Searches with the signed distance at a time, in the frame of the search. A separating plane
+/// found at any time proves a lower bound of the contact's time, so steps may overshoot: `guess`
+/// proposes the time at which the features that are nearest at a time touch.
 template <class DistanceAt, class Guess>
 class ClosedSweep {
  public:
@@ -34,7 +34,7 @@ class ClosedSweep {
       const bool is_guess = t > result_.t_lo;
       const CoreDistance found = distance_at_(t);
       const double gap = found.lower - radii_ - rounding_, approach = -found.axis.dot(velocity_);
-      // Nothing is known of what begins in contact.
+      // Contact at the start: left open.
       if (step == 0 && !(gap > near_)) return result_;
       if (!(approach > 0)) {
         if (is_guess) {
@@ -68,7 +68,7 @@ class ClosedSweep {
 
  private:
   static constexpr int most_steps = 40, most_guesses = 4;
-  /// Nearer than this part of what is near enough the last step has found where they touch.
+  /// The last step has found the contact if the gap is below this fraction of the requested one.
   static constexpr double near_as_asked = 1e-4;
 
   void end(SweptStatus status, const Vec3<double>& axis) {
@@ -76,7 +76,7 @@ class ClosedSweep {
     result_.axis = unit<double>(axis);
   }
 
-  /// At t they are next to nothing apart: a little later they overlap.
+  /// Called if the gap at t is tiny: slightly later the cores overlap.
   SweptTime touch(double t, double approach) {
     const double later = t + (2 * rounding_ + near_as_asked * near_) / approach;
     const CoreDistance there = distance_at_(later);
@@ -93,7 +93,7 @@ class ClosedSweep {
   const DistanceAt& distance_at_;
   const Guess& guess_;
   double radius_of_a_, radii_, rounding_, speed_;
-  double latest_;  ///< no contact is later: the middles would be too far apart, and places coarse
+  double latest_;  ///< upper bound of the time: later the middles are too far apart for a contact
   SweptTime result_;
 };
 
@@ -103,8 +103,9 @@ SweptTime sweep(const CorePair& pair, const Vec3<double>& velocity, double t_max
   return ClosedSweep<DistanceAt, Guess>(pair, velocity, t_max, near, distance_at, guess).run();
 }
 
-/// When the nearest features of two segments, p of A and q of B, come as near as `radii`: an end or
-/// the line that a nearest point is within. Not a number if they never do, or move along a plane.
+/// Time at which the nearest features of two segments (p on A, q on B) are `radii` apart; a feature
+/// is an end, or the line if the nearest point is inside the segment. NaN if they never are, or
+/// move in parallel.
 double contact_of_features(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& x,
                            const Vec3<double>& velocity, const CoreDistance& found, double at,
                            double radii) {
@@ -143,7 +144,7 @@ SweptTime swept_closed(const CorePair& pair, const Vec3<double>& velocity, doubl
           return contact_of_features(p, q, pair.x + at * velocity, velocity, found, at, radii);
         });
   }
-  // As the solid sees it, in whose frame the point moves the other way.
+  // In the solid's frame, the point moves in the opposite direction.
   const Vec3<double> x = pair.to_b(pair.x), v = pair.to_b(velocity);
   const auto distance_at = [&](double t) {
     CoreDistance at = between_solid_and_point(pair.b, Vec3<double>(-x - t * v));

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
-// First contact of two cores where one moves without turning and the distance has a closed form.
-// The signed distance is a convex function of the place, and so of the time: Newton's method from
-// the left never goes too far. Each of its steps is proven by the plane between the two.
+// First contact of a core that moves without turning with one at rest, if the distance has a closed
+// form. The signed distance is a convex function of the position, and so of the time: Newton's
+// method from the left never overshoots. A separating plane proves each step.
 #pragma once
 
 #include "core/pair_motion/swept_query.h"
 
 namespace minkray {
 
-/// Points and segments; points and boxes, cylinders, cones, disks. A's kind is not after B's.
+/// True for points and segments, and for points and boxes, cylinders, cones or disks. A's kind must
+/// not be after B's.
 bool has_swept_closed(const CorePair& pair);
 
-/// Like SweptPortal (swept_portal.h). Leaves some cases to other methods.
+/// Takes the arguments of SweptPortal (swept_portal.h). Returns `open` in some cases.
 SweptTime swept_closed(const CorePair& pair, const Vec3<double>& velocity, double t_max,
                        double near);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// First contact of two cores where one moves without turning: a ray meets C. By portals (G.
-// Snethen, "XenoCollide", in Game Programming Gems 7, 2008): GJK in the shadow of C finds three
-// points around the origin, or proves a miss; their triangle is moved outwards by support points.
-// The triangle and the support plane bound the time. Exact for polytopes; on curved surfaces
-// sliding_portal.h takes over after a few turns.
+// First contact of a core that moves without turning with one at rest: a ray cast at C by portals
+// (G. Snethen, "XenoCollide", in Game Programming Gems 7, 2008). GJK on C projected along the
+// motion finds three points around the origin, or proves a miss; support points move their triangle
+// outwards. The triangle and the support plane bound the time. Exact for polytopes; on curved
+// surfaces sliding_portal.h takes over after a few iterations.
 #pragma once
 
 #include "core/pair_motion/sliding_portal.h"
@@ -13,15 +13,15 @@ namespace minkray {
 template <CoreKind A, CoreKind B>
 class SweptPortal {
  public:
-  /// B moves by t * velocity, as A sees it, for 0 <= t <= t_max. Planes further apart than `near`
-  /// all the time make a miss, times nearer to each other than it takes to move by so much a hit.
+  /// B moves by t * velocity in A's frame, for 0 <= t <= t_max. Miss: a plane keeps the cores more
+  /// than `near` apart throughout. Hit: between the bounds of the time B moves by at most `near`.
   SweptPortal(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near)
       : query_(pair, velocity, t_max, near) {
     can_slide_ = pair.a.kind != CoreKind::other && pair.b.kind != CoreKind::other &&
                  (slides(pair.a.kind) || slides(pair.b.kind) || query_.radius > 0);
   }
 
-  /// `memory` may be null; else its plane is tried first.
+  /// `memory` may be null; if not, its plane is tried first.
   SweptTime run(const PairMemory* memory) {
     if (!(query_.speed > 0) || query_.passes_by()) return query_.result;
     if (memory && memory->has_axis()) {
@@ -34,10 +34,10 @@ class SweptPortal {
 
  private:
   static constexpr int most_turns = 200;
-  /// Turns of the portal before features slide.
+  /// Iterations of the portal before features slide.
   static constexpr int turns_plain = 3;
 
-  /// Three points whose shadows are around the origin. False: it is a miss, or not known.
+  /// Finds three points whose projections enclose the origin. False: a miss, or undecided.
   bool surround() {
     double dp = portal_[0].p, dq = portal_[0].q;
     int count = 1;
@@ -64,7 +64,7 @@ class SweptPortal {
         }
         count = 2;
       }
-      // At right angles to the edge, away from the origin.
+      // Perpendicular to the edge, away from the origin.
       const double ep = portal_[1].p - portal_[0].p, eq = portal_[1].q - portal_[0].q;
       dp = -eq;
       dq = ep;
@@ -81,10 +81,10 @@ class SweptPortal {
     return false;
   }
 
-  /// Twice the area of the origin and the shadows of two points, with a sign.
+  /// Twice the signed area of the triangle of the origin and two points' projections.
   double side(int i, int j) const { return cross(portal_[i], portal_[j]); }
 
-  /// Moves the portal out until both bounds meet. Always true.
+  /// Moves the portal outwards until both bounds meet. Always returns true.
   bool refine() {
     for (int turn = 0; turn < most_turns; ++turn) {
       const double area = side(0, 1) + side(1, 2) + side(2, 0);
@@ -104,7 +104,7 @@ class SweptPortal {
       const SweptPoint w = query_.support(n);
       if (query_.judge(n, w)) return true;
       if (query_.has_met()) return query_.end_hit();
-      // The third of the triangle, as seen from the new point, that holds the origin.
+      // Keeps the third of the triangle, divided at the new point, that contains the origin.
       const double sign = area < 0 ? -1 : 1, at0 = sign * cross(portal_[0], w),
                    at1 = sign * cross(portal_[1], w), at2 = sign * cross(portal_[2], w);
       if (at0 <= 0 && at1 >= 0)

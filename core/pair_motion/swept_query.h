@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A search for a time of impact: two cores, B moving without turning, and the bounds proven so
-// far. The radii are included in the points: C is grown by both.
+// A search for a time of impact: two cores, B moving without turning, and the bounds proven so far.
+// The points include the radii: C is grown by both.
 #pragma once
 
 #include <algorithm>
@@ -10,22 +10,22 @@
 namespace minkray {
 
 enum class SweptStatus : unsigned char {
-  open,  ///< none of the others is proven; the bounds hold
+  open,  ///< neither hit nor miss is proven; the bounds hold
   hit,
   miss,
 };
 
-/// All in A's frame.
+/// Result of the search, in A's frame.
 struct SweptTime {
   SweptStatus status = SweptStatus::open;
-  double t_lo = -std::numeric_limits<double>::infinity();  ///< no contact since long before
+  double t_lo = -std::numeric_limits<double>::infinity();  ///< no contact before this
   double t_hi = std::numeric_limits<double>::infinity();   ///< the cores touch or overlap
-  Vec3<double> axis = Vec3<double>::Zero();  ///< across the plane between them, of unit length
-  Vec3<double> a = Vec3<double>::Zero();     ///< a point of A, which at t_hi is one of B
+  Vec3<double> axis = Vec3<double>::Zero();                ///< unit normal of the separating plane
+  Vec3<double> a = Vec3<double>::Zero();  ///< a point of A that is also a point of B at t_hi
   int supports = 0;
 };
 
-/// A point y = b - a of C, and its shadow along the motion: p e0 + q e1, h along it.
+/// A point y = b - a of C, its projection p e0 + q e1 along the motion, and its height h along it.
 struct SweptPoint {
   Vec3<double> y, a;
   double p, q, h;
@@ -66,7 +66,7 @@ struct SweptQuery {
     const Vec3<double> n = d / d.norm();
     return in_shadow(c - radius * n, a + pair.a.radius * n, of_a, of_b);
   }
-  /// The points of features, which need not be the furthest.
+  /// Points of the given features, which need not be the support points.
   SweptPoint on_features(int of_a, int of_b, const Vec3<double>& d) const {
     const Vec3<double> a = point_of_feature<A>(pair.a, of_a, d),
                        b = point_of_feature<B>(pair.b, of_b, pair.to_b(-d));
@@ -77,13 +77,13 @@ struct SweptQuery {
     result.status = status;
     result.axis = unit<double>(axis);
   }
-  /// Always true.
+  /// Returns true.
   bool end_hit() {
     result.status = SweptStatus::hit;
     return true;
   }
 
-  /// The balls around both miss each other, whatever rounding made of how far aside they are.
+  /// True (a miss) if the bounding balls of both miss each other by more than rounding.
   bool passes_by() {
     const double towards = pair.x.dot(along);
     const Vec3<double> aside = pair.x - towards * along;
@@ -93,7 +93,8 @@ struct SweptQuery {
     return true;
   }
 
-  /// Applies what the plane with normal n through w proves. Returns true if that is a miss.
+  /// Applies the bound that the plane with normal n through w proves. Returns true if that is a
+  /// miss.
   bool judge(const Vec3<double>& n, const SweptPoint& w) {
     const double length = n.norm(), gap = n.dot(w.y) - rounding * length,
                  approach = -n.dot(velocity);
@@ -114,12 +115,12 @@ struct SweptQuery {
     return false;
   }
 
-  /// The time at which the origin is on the triangle: an upper bound if it is within. Returns
-  /// whether it is.
+  /// Takes the time at which the origin is in the triangle's plane as an upper bound, if it is then
+  /// inside the triangle. Returns true if it is.
   bool pierce(const SweptPoint& r, const SweptPoint& s, const SweptPoint& t) {
     const double at_r = cross(s, t), at_s = cross(t, r), at_t = cross(r, s),
                  area = at_r + at_s + at_t, sign = area < 0 ? -1 : 1;
-    // Rounding moves the sides of thinner slivers too far.
+    // In thinner slivers, rounding moves the sides too far.
     constexpr double sliver = 1e-10;
     const double reach = std::max({std::abs(r.p) + std::abs(r.q), std::abs(s.p) + std::abs(s.q),
                                    std::abs(t.p) + std::abs(t.q)});
@@ -127,9 +128,9 @@ struct SweptQuery {
           std::abs(area) > sliver * size * reach))
       return false;
     const double of_r = at_r / area, of_s = at_s / area, of_t = at_t / area;
-    // The weights of a thin triangle give a point slightly off the origin: it is corrected along
-    // the triangle's plane. Rounding moves the points across, which counts in proportion to the
-    // steepness.
+    // The weights of a thin triangle give a point slightly off the origin, which is corrected along
+    // the triangle's plane. Rounding also moves the points sideways, which changes the height in
+    // proportion to the plane's steepness.
     const double p1 = s.p - r.p, q1 = s.q - r.q, h1 = s.h - r.h, p2 = t.p - r.p, q2 = t.q - r.q,
                  h2 = t.h - r.h, across = p1 * q2 - q1 * p2;
     const double rise_p = (h1 * q2 - q1 * h2) / across, rise_q = (p1 * h2 - h1 * p2) / across;

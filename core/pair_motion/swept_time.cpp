@@ -13,7 +13,7 @@ namespace minkray {
 
 namespace {
 
-/// Two balls: |x + t v| = r, the first of the two times, and what rounding may have done to it.
+/// Two balls: the first solution of |x + t v| = r, with bounds of its rounding.
 SweptTime of_balls(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near) {
   SweptTime result;
   const double radius = pair.a.radius + pair.b.radius, squared = velocity.squaredNorm(),
@@ -32,7 +32,7 @@ SweptTime of_balls(const CorePair& pair, const Vec3<double>& velocity, double t_
   const double t = towards / squared - std::sqrt(deep);
   const Vec3<double> there = pair.x + t * velocity;
   const double speed = std::sqrt(squared), approach = -there.dot(velocity) / there.norm();
-  // Error of the distance there, by the speed at which it changes.
+  // Error of the distance at that time, divided by its rate of change.
   const double off = std::abs(there.norm() - radius) + rounding;
   if (!(t * speed > near) || !(approach > 0)) return result;
   if ((t - t_max) * approach > near + off) return miss(pair.x + t_max * velocity);
@@ -45,7 +45,7 @@ SweptTime of_balls(const CorePair& pair, const Vec3<double>& velocity, double t_
   return result;
 }
 
-/// Speeds whose squares are ordinary numbers.
+/// Casts with speeds whose squares are normal numbers.
 SweptTime of_ordinary_speeds(const CorePair& pair, const Vec3<double>& velocity, double t_max,
                              double near, PairMemory* memory) {
   if (pair.a.kind == CoreKind::point && pair.b.kind == CoreKind::point)
@@ -64,7 +64,7 @@ SweptTime of_ordinary_speeds(const CorePair& pair, const Vec3<double>& velocity,
   return swept;
 }
 
-/// t * 2^power, rounded towards `outward` where it has no such number.
+/// Returns t * 2^power, rounded towards `outward` if it is not representable.
 double rescaled(double t, int power, double outward) {
   const double scaled = std::ldexp(t, power);
   return std::ldexp(scaled, -power) == t ? scaled : std::nextafter(scaled, outward);
@@ -76,13 +76,13 @@ SweptTime swept_time(const CorePair& pair, const Vec3<double>& velocity, double 
                      PairMemory* memory) {
   const double size = pair.size() + pair.a.radius + pair.b.radius;
   if (!are_searchable(size, pair.x.cwiseAbs().maxCoeff())) return {};
-  // Beyond these squares of speeds come near to the ends of the numbers' range, 2^-1074 and 2^1024.
+  // Beyond these, squares of speeds come close to the range of double, 2^-1074 to 2^1024.
   constexpr double slowest = 0x1p-400, fastest = 0x1p400;
   const double most = velocity.cwiseAbs().maxCoeff();
   if (most > slowest && most < fastest)
     return of_ordinary_speeds(pair, velocity, t_max, near, memory);
   if (!(most > 0) || !velocity.allFinite()) return {};
-  // Time in another unit, by a power of two, rounds no digit of a speed.
+  // A power of two as the unit of time rounds no speed.
   constexpr double infinity = std::numeric_limits<double>::infinity();
   int power = 0;
   std::frexp(most, &power);
@@ -93,7 +93,7 @@ SweptTime swept_time(const CorePair& pair, const Vec3<double>& velocity, double 
   swept.t_lo = rescaled(swept.t_lo, -power, -infinity);
   swept.t_hi = rescaled(swept.t_hi, -power, infinity);
   const bool is_late = swept.status == SweptStatus::hit && !std::isfinite(swept.t_hi);
-  if (is_late) swept.status = SweptStatus::open;  // at a time that is no number
+  if (is_late) swept.status = SweptStatus::open;  // at a time that is not representable
   return swept;
 }
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Lower bounds of the distances from eight boxes to another box, whose axes may be turned: the most
-// frequent query of a walk over two bodies' boxes. The bounds use the face normals of both boxes as
-// separating axes, the line between two middles, and a known good direction.
+// Lower bounds of the distances from eight boxes to another box, whose axes may be rotated: the
+// most frequent query when two bodies' boxes are traversed. The bounds use the face normals of both
+// boxes as separating axes, the line between two middles, and a known good direction.
 #pragma once
 
 #include "core/math/vec.h"
 
 namespace minkray {
 
-/// A box of half extents about its middle, cut to a slab between two planes across `normal` unless
-/// that is 0.
+/// A box given by its middle and half extents, cut to a slab between two planes perpendicular to
+/// `normal` unless that is 0.
 struct MiddleBox {
   Vec3<double> middle = Vec3<double>::Zero(), half = Vec3<double>::Zero();
   Vec3<double> normal = Vec3<double>::Zero();
@@ -44,7 +44,7 @@ struct EightBoxes {
 /// Upper bound of n . p over the points p in the box.
 inline double reach_along(const MiddleBox& box, const Vec3<double>& n) {
   const double by_box = n.dot(box.middle) + n.cwiseAbs().dot(box.half);
-  // Splits n into a part across the slab and a rest, which the box bounds.
+  // Splits n into a part perpendicular to the slab and a rest, which the box bounds.
   const double across = n.dot(box.normal);
   const Vec3<double> rest = n - across * box.normal;
   const double by_slab = across * (across < 0 ? box.low : box.high) + rest.dot(box.middle) +
@@ -52,7 +52,7 @@ inline double reach_along(const MiddleBox& box, const Vec3<double>& n) {
   return std::min(by_box, by_slab);
 }
 
-/// Frame of one box, as seen from the frame of the others.
+/// Frame of one box relative to the frame of the eight boxes.
 struct Turned {
   Mat3<double> turn;
   Vec3<double> shift;

@@ -9,7 +9,7 @@
 
 namespace minkray {
 
-/// Refers to the body, which must outlive this.
+/// Refers to the body, which must outlive the part.
 class OnePart {
  public:
   OnePart(const PartsBody& body, std::uint32_t part)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A walk over the pairs of parts of two bodies, nearest boxes first.
+// Traverses the pairs of parts of two bodies, nearest boxes first.
 #pragma once
 
 #include <algorithm>
@@ -42,8 +42,8 @@ class PairWalk {
   double down_b() const { return down_b_; }
 
   /// Calls visit(part_a, part_b) for pairs until it returns true. key(gap, box_a, box_b) is a lower
-  /// bound of what the visit finds, below 0 for boxes that overlap. Pairs whose key is above
-  /// limit() are left out, and their least key is returned.
+  /// bound of what the visit finds, below 0 for boxes that overlap. Omits pairs whose key is above
+  /// limit(), and returns the least key of these.
   template <class Key, class Limit, class Visit>
   double run(const Key& key, const Limit& limit, const Visit& visit) {
     return run_leaves(key, limit, [&](BodyTree::Box a, BodyTree::Box b) {
@@ -79,7 +79,7 @@ class PairWalk {
     const KnownDirection known{-n_in_b_, has_direction_ ? up(of_a) : 0};
     box_gaps(boxes, of_a, sight_.a_in_b, has_direction_ ? &known : nullptr, gaps);
   }
-  /// Records that a pair with this key was left out.
+  /// Records that a pair with this key was omitted.
   void leave_out(double key) { left_out_ = std::min(left_out_, key); }
   /// Returns true if a visit ends the walk.
   template <class Key, class Limit, class Visit>

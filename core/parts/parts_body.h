@@ -7,13 +7,13 @@
 
 namespace minkray {
 
-/// A convex shape, or a mesh. Refers to either.
+/// Reference to a convex shape or to a mesh.
 class PartsBody {
  public:
   PartsBody(const ContactShape& shape) : shape_(&shape) {}
   PartsBody(const TriangleMesh& mesh) : mesh_(&mesh) {}
 
-  /// Null for the other kind.
+  /// Null for a mesh.
   const ContactShape* shape() const { return shape_; }
   const TriangleMesh* mesh() const { return mesh_; }
 
@@ -27,8 +27,7 @@ struct PartPair {
   std::uint32_t a = no_part, b = no_part;
 };
 
-/// Bounding box of the body at a rigid pose; for shapes the tightest one, but for rounding
-/// outwards.
+/// Bounding box of the body at a rigid pose; for shapes tight up to rounding.
 Bounds<double> bounds_of(const PartsBody& body, const Affine<double>& pose);
 /// Upper bound of the distance of the body's points from the origin of its frame.
 double reach_of(const PartsBody& body);

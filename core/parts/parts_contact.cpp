@@ -8,7 +8,8 @@
 namespace minkray {
 namespace {
 
-/// False if no pair of parts has the result: one body is within the other, or they miss.
+/// Returns false if the result belongs to no pair of parts: one body is inside the other, or they
+/// miss.
 bool has_parts(const PartPair& parts, const PartsBody& a, const PartsBody& b) {
   return (!a.mesh() || parts.a != no_part) && (!b.mesh() || parts.b != no_part);
 }

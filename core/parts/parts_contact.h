@@ -9,8 +9,8 @@
 
 namespace minkray {
 
-/// Considers only the two parts that are nearest, or that cross. There are no points if one body is
-/// within the other without crossing it.
+/// Considers only the two parts that are nearest, or that cross. Returns no points if one body is
+/// inside the other without crossing it.
 ContactManifold contact_manifold(const PartsBody& a, const Affine<double>& pose_a,
                                  const PartsBody& b, const Affine<double>& pose_b);
 

@@ -19,13 +19,13 @@ Vec3<double> point_of(const PartsBody& body) {
 std::optional<Vec3<double>> point_held_by(const PartsBody& one, const Affine<double>& pose,
                                           const PartsBody& other,
                                           const Affine<double>& pose_other) {
-  if (!one.mesh()) return {};  // triangles within a shape overlap it
+  if (!one.mesh()) return {};  // a convex shape is solid: the search finds triangles inside it
   const Vec3<double> point = pose_other(point_of(other));
   const Vec3<double> seen = pose.linear.transpose() * (point - pose.translation);
   return is_within(*one.mesh(), seen) ? std::optional(point) : std::nullopt;
 }
 
-/// Least distance of the parts that a walk visits.
+/// Least distance over the pairs of parts that a traversal visits.
 class LeastDistance {
  public:
   LeastDistance(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
@@ -138,7 +138,7 @@ class LeastDistance {
     return visit_by_search(of_a, of_b);
   }
 
-  /// Runs GJK for parts of other shapes and for triangles that nearly touch.
+  /// Runs GJK: for a mesh and a convex shape, and for triangles that nearly touch or cross.
   bool visit_by_search(std::uint32_t of_a, std::uint32_t of_b) {
     if (walk_.has_direction()) {
       const double lower = gap_along_direction(of_a, of_b) - sight_.rounding;
@@ -164,7 +164,7 @@ class LeastDistance {
     return is_crossed_;
   }
 
-  /// Gap between planes across the walk's direction.
+  /// Gap between planes perpendicular to the walk's direction.
   double gap_along_direction(std::uint32_t of_a, std::uint32_t of_b) const {
     const Vec3<double>& n = walk_.direction();
     const double up_a = a_.mesh() ? reach_along(a_.triangle(of_a), n) : walk_.up_a();
@@ -183,7 +183,8 @@ class LeastDistance {
   const Sight sight_;
   PairWalk walk_;
   const double near_;  ///< bounds this close to each other have converged
-  /// Triangles that share an edge or a vertex have the same distance; for these a plane is enough.
+  /// Triangles with a common edge or vertex can have equal distances: a lower bound within `same_`
+  /// of the best upper bound is enough, without another exact test.
   const double same_ = 4 * sight_.rounding;
   double enough_ = infinity;
   SignedDistance best_;
@@ -212,7 +213,8 @@ SignedDistance signed_distance(const PartsBody& a, const Affine<double>& pose_a,
   if (parts) *parts = {};
   if (!a.mesh() && !b.mesh())
     return signed_distance(*a.shape(), pose_a, *b.shape(), pose_b, options);
-  // A body within the other overlaps it, so only crossing parts are searched for.
+  // If one body is inside the other, the status is known: search only for parts that cross (limit
+  // 0).
   const std::optional<Vec3<double>> within = point_within(a, pose_a, b, pose_b);
   LeastDistance least(a, pose_a, b, pose_b, options);
   SignedDistance found = least.run(options.only_sign || within ? 0 : options.at_most, parts);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// First contact of two moving bodies, one of them a mesh or both: the first contact of any two
-// of their parts.
+// First contact of two moving bodies, at least one a mesh: the first contact of any two of their
+// parts.
 #pragma once
 
 #include "core/pair_motion/impact.h"

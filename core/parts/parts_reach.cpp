@@ -15,7 +15,7 @@ struct Furthest {
 
 /// Corner of a mesh that is furthest along d, found with the boxes of its BVH.
 Furthest furthest_corner(const TriangleMesh& mesh, const Vec3<double>& d) {
-  // Capacity: the BVH has at most bvh_max_depth levels, and at most seven nodes of each wait.
+  // Capacity: the BVH has at most bvh_max_depth levels, with at most seven pending nodes per level.
   constexpr std::size_t room = bvh_max_depth * bvh_width;
   struct Open {
     double along;
@@ -44,7 +44,7 @@ Furthest furthest_corner(const TriangleMesh& mesh, const Vec3<double>& d) {
       for (int k = 0; k < 3; ++k)
         along += d[k] * static_cast<double>(node.planes[d[k] > 0 ? 1 : 0][k][i]);
       if (!(along > best.along)) continue;
-      // Opens the furthest first.
+      // Opens the node with the furthest reach first.
       std::size_t at = count++;
       for (; at > first && open[at - 1].along > along; --at) open[at] = open[at - 1];
       open[at] = {along, node.children[i]};

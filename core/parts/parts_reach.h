@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Extent of a body along a direction: separates two bodies by a plane whatever their parts are, and
-// measures a body's height above a half-space.
+// Extent of a body along a direction: used to separate two bodies by a plane without their parts,
+// and to measure a body's height above a half-space.
 #pragma once
 
 #include "core/pair_distance/half_space_distance.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Lower bounds of the distances from eight triangles to another one: by the planes of their faces,
-// across the line between two middles, and across a direction that is known to be good. Pairs that
-// these do not settle go to triangle_pair.h.
+// Lower bounds of the distances from eight triangles to another one, by planes perpendicular to the
+// faces' normals, to the line between two middles, and to a known good direction. Pairs that these
+// do not settle go to triangle_pair.h.
 #pragma once
 
 #include "core/parts/triangle_pair.h"

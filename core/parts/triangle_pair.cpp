@@ -68,7 +68,7 @@ bool edge_passes(const TriangleCorners& a, const TriangleCorners& b, const SureS
 }  // namespace
 
 double gap_along(const TriangleCorners& a, const TriangleCorners& b, const Vec3<double>& n) {
-  // Relative to a corner, so that both sides have the size of the triangles.
+  // Relative to a corner, so that numbers have the triangles' magnitude.
   const Vec3<double>& from = a[0];
   const auto height = [&](const Vec3<double>& p) { return n.dot(p - from); };
   return std::min({height(b[0]), height(b[1]), height(b[2])}) -

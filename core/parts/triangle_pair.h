@@ -11,9 +11,9 @@ namespace minkray {
 
 using TriangleCorners = std::array<Vec3<double>, 3>;
 
-/// `lower` is the gap between planes across the normal, `upper` the distance of the points, both
-/// without a margin for rounding. `lower` is 0 or less if the triangles cross, and may be so for
-/// slivers, for which the closed form has too few digits.
+/// `lower` is the gap between planes perpendicular to the normal, `upper` the distance of the
+/// points, both without a margin for rounding. `lower` is 0 or less if the triangles cross, and may
+/// be so for slivers, for which the closed form has too few digits.
 struct TriangleGap {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
@@ -30,8 +30,8 @@ inline double reach_along(const TriangleCorners& triangle, const Vec3<double>& n
 /// Gap between two planes across the unit vector n, with a and b on their outer sides.
 double gap_along(const TriangleCorners& a, const TriangleCorners& b, const Vec3<double>& n);
 
-/// True if an edge of one passes through the other even if each corner moves by `loss`. `common` is
-/// then a point on both, or within `loss` of it.
+/// True if an edge of one triangle passes through the other even if each corner moves by up to
+/// `loss`. `common` is then a point on both, or within `loss` of it.
 bool surely_cross(const TriangleCorners& a, const TriangleCorners& b, double loss,
                   Vec3<double>& common);
 

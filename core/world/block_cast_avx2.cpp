@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Exact casts, four by four, with rays and places read where they lie. Everything here has internal
-// linkage or the type of the lanes in its name: see core/math/wide.h.
+// Exact casts of four rays at a time, which read rays and places in their arrays. Everything here
+// has internal linkage, or the type of the lanes in its name: see core/math/wide.h.
 #include "core/cast/filter.h"
 #include "core/cast/packet_lanes.h"
 #include "core/world/ray_block.h"
@@ -11,7 +11,7 @@ namespace {
 
 using D = Wide<double, 4, IsaAvx2>;
 
-/// Rows to columns.
+/// Transposes four rows of four numbers.
 [[gnu::always_inline]] inline void transpose(const __m256d (&row)[4], D (&column)[4]) {
   const __m256d a = _mm256_unpacklo_pd(row[0], row[1]), b = _mm256_unpackhi_pd(row[0], row[1]);
   const __m256d c = _mm256_unpacklo_pd(row[2], row[3]), d = _mm256_unpackhi_pd(row[2], row[3]);
@@ -40,7 +40,7 @@ using D = Wide<double, 4, IsaAvx2>;
   return _mm256_castsi256_pd(_mm256_add_epi64(_mm256_castpd_si256(number), digits));
 }
 
-/// A body at a place in each lane, as the filter reads it.
+/// A body at one place per lane, in the form that the filter reads.
 struct Placed {
   const ShapeDefinition<double>& of;
   Vec3<D> at;
@@ -102,7 +102,7 @@ void cast_four_avx2(const InstanceBody& body, const FourPairs& pairs, LaneBits l
 }  // namespace minkray
 #else
 namespace minkray {
-/// Never called on other machines.
+/// Never called on machines without AVX2.
 void cast_four_avx2(const InstanceBody&, const FourPairs&, LaneBits, CastPacket<double>&) {}
 }  // namespace minkray
 #endif

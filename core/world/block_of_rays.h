@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A block of rays in float lanes: made from rays in double, and tested against boxes. All has
-// internal linkage: see core/math/wide.h.
+// A block of rays in float lanes: made from rays in double, and tested against boxes. Everything
+// has internal linkage: see core/math/wide.h.
 #pragma once
 
 #include "core/bvh/bvh.h"
@@ -14,20 +14,21 @@ namespace {
 constexpr int all_rays = static_cast<int>(rays_of_block);
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Directions further apart than this, in units of the first one's largest component, gain nothing
-/// together.
+/// Largest difference of directions in a block, in units of the first one's largest component;
+/// wider blocks are not faster.
 constexpr double widest = 0.25;
 
-/// Each comparison of two planes' parameters is of numbers rounded five times: 16 roundings' room.
+/// Compared parameters of two planes are rounded five times each; this allows for 16 roundings.
 constexpr float block_padding = 1 + 8 * std::numeric_limits<float>::epsilon();
 
 struct alignas(32) Block {
-  /// Indexed by ray: its direction minus the middle's, and 1 / direction, which is never infinite.
+  /// Indexed by ray: the difference from the middle direction, and 1 / direction, which is never
+  /// infinite.
   float delta[3][all_rays], inverse[3][all_rays];
   double origin[4], middle[4];
   double middle_squared;
-  double widest;  ///< the greatest length of delta
-  /// The origin from both sides, and of all inverses the bounds; see `Bounds`.
+  double widest;  ///< greatest length of the differences
+  /// Bounds of the origin in float from both sides, and bounds of all inverses.
   float above[3], below[3];
   float inverse_near[3], inverse_far[3];
   float least_up[3], least_down[3];
@@ -38,7 +39,7 @@ __m256d load(const double* from) {
   return _mm256_loadu_pd(from);
 }
 
-/// Rows to columns.
+/// Transposes four rows of four numbers.
 [[gnu::always_inline]] inline void transpose(const __m256d (&row)[4], __m256d (&column)[4]) {
   const __m256d a = _mm256_unpacklo_pd(row[0], row[1]), b = _mm256_unpackhi_pd(row[0], row[1]);
   const __m256d c = _mm256_unpacklo_pd(row[2], row[3]), d = _mm256_unpackhi_pd(row[2], row[3]);
@@ -144,7 +145,7 @@ bool make_block(const char* rays, std::size_t stride, std::size_t count, Block& 
     block.below[axis] = below(first[axis]);
     block.mixed[axis] = low < 0 && high > 0;
     block.down[axis] = low < 0;
-    // Near planes by the steepest, far ones by the flattest.
+    // Near planes use the steepest inverse, far planes the flattest.
     block.inverse_near[axis] = low < 0 ? high : low;
     block.inverse_far[axis] = low < 0 ? low : high;
     if (!block.mixed[axis]) continue;
@@ -182,7 +183,7 @@ bool make_block(const char* rays, std::size_t stride, std::size_t count, Block& 
   return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(enter, padded, _CMP_LE_OQ)));
 }
 
-/// For each set of lanes, their numbers from the lowest up.
+/// For each set of lanes, their indices in ascending order.
 struct LanesOfSet {
   std::uint64_t lanes[256] = {};
   constexpr LanesOfSet() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All points on one side of a plane: the one thing in a world that has no end, and so no support
-// mapping, no box and no solver. A ray meets it in closed form.
+// Half-space: all points on one side of a plane. Unbounded, so it has no support mapping, box or
+// solver; rays are cast in closed form.
 #pragma once
 
 #include <cmath>
@@ -18,10 +18,10 @@ template <class T>
 struct HalfSpaceBody {
   Vec3<T> normal = {T(0), T(0), T(1)};  ///< outward, of unit length
   T offset = T(0);
-  /// A pose's own rounding: of the normal, whose entries may be off by this, and of the offset.
+  /// Bounds of the rounding by a pose: of each entry of the normal, and of the offset.
   T normal_error = T(0), offset_error = T(0);
 
-  /// Under an invertible map.
+  /// Maps the half-space by an invertible map.
   HalfSpaceBody posed(const Affine<T>& pose) const {
     constexpr T rounding = T(4) * std::numeric_limits<T>::epsilon();
     const Vec3<T> turned = unit<T>(accurate_inverse<T>(pose.linear).transpose() * normal);
@@ -40,14 +40,13 @@ struct HalfSpaceBody {
   }
 };
 
-/// Finds where the ray enters: at the surface or, if it begins below it, inside. The interval
-/// holds what the roundings of this division can have moved; a ray along the plane meets nothing,
-/// or begins inside. Exhausted where a height, a fall or the way to the plane is no number of this
-/// type.
+/// Finds where the ray enters: at the surface, or `inside` if it begins below the surface. The
+/// interval includes the rounding of the division. A ray parallel to the plane misses or begins
+/// inside. Exhausted if the height, the slope or the distance along the ray overflows.
 template <class T>
 CastResult<T> cast_ray(const HalfSpaceBody<T>& half_space, const Ray<T>& ray) {
   using std::abs, std::isfinite;
-  // Bounds the rounding of three products and their sums, relative to what they add.
+  // Bounds the rounding of three products and their sum, relative to the sum of their magnitudes.
   constexpr T rounding = T(4) * std::numeric_limits<T>::epsilon();
   const Vec3<T>& n = half_space.normal;
   const T height = n.dot(ray.origin) - half_space.offset;

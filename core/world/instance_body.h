@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Data shared by the instances of one definition: the definition, and how their places refer to
-// it.
+// Data shared by instances of one definition: the definition, and the frame of their places.
 #pragma once
 
 #include <memory>
@@ -14,12 +13,12 @@ namespace minkray {
 /// frame if the body is plain, else the inner ball's centre.
 struct InstanceBody {
   std::shared_ptr<const ShapeDefinition<double>> definition;
-  std::uint32_t number = 0;                    ///< of the definition
+  std::uint32_t number = 0;                    ///< number of the definition
   Vec3<double> centre = Vec3<double>::Zero();  ///< of the inner ball, in the frame of places
   bool is_centred = true;                      ///< centre is zero
   bool is_turned = false;                      ///< the map is not the identity
-  bool is_plain = false;  ///< the pose keeps lengths, and no outer map was taken off
-  bool is_wide = false;   ///< the map has numbers that float does not hold
+  bool is_plain = false;  ///< the pose keeps lengths, and no outer map was removed
+  bool is_wide = false;   ///< the map has numbers that do not fit in float
 };
 
 }  // namespace minkray

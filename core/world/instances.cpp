@@ -13,15 +13,14 @@
 namespace minkray {
 namespace {
 
-/// Support points, and so the bounds made of them, are rounded; a solver's hits are as well.
-/// Relative to the box's size and distance from the world's origin, in units of the machine
-/// epsilon.
+/// Padding of boxes for the rounding of support points and of a solver's hits, in machine epsilons
+/// of the box's size plus its distance from the world's origin.
 constexpr int bounds_padding = 32;
 
-/// Poses that one thread takes at a time: some hundred microseconds of work.
+/// Number of poses that a thread takes at a time: some hundred microseconds of work.
 constexpr std::size_t poses_a_range = 4096;
 
-/// In Defined::bodies: 1 if turned, 2 if plain, and one with a wide map.
+/// Index in Defined::bodies: 1 if turned, plus 2 if plain; this one is for wide maps.
 constexpr std::size_t wide_body = 4;
 
 Bounds<double> padded(const Bounds<double>& bounds) {
@@ -64,7 +63,7 @@ std::uint32_t Instances::define(const std::shared_ptr<const ShapeDefinition<doub
     number = number_of(shared);
     equal_.emplace(hash, number);
   }
-  // The address stays that of this definition only while someone holds it.
+  // The address identifies this definition only while it is owned.
   if (definitions_[number].shared == shared) shared_.emplace(shared.get(), number);
   return number;
 }
@@ -177,7 +176,7 @@ void Instances::place_many(std::size_t first, std::size_t count,
   digits_.resize(places_.size(), TrailingDigits{});  // pose_of may read them
   std::atomic<bool> has_digits = had_digits;
   const bool had_rests = !rests_.empty();
-  // pose_of may read bodies while others are made: they must stay where they are.
+  // pose_of may read bodies while others are added, so the array must not be reallocated.
   const std::size_t most_bodies = bodies_.size() + (wide_body + 1) * definitions_.size();
   bodies_.reserve(most_bodies);
   screens_.reserve(most_bodies);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The shapes of a world, each with its pose: definitions once, and for each instance only its
-// place, so that there may be tens of millions.
+// Shapes of a world with their poses. Definitions are stored once, and for each instance only its
+// place, so that a world can have tens of millions.
 #pragma once
 
 #include <array>
@@ -25,19 +25,19 @@
 
 namespace minkray {
 
-/// "No instance": as a result, none was met; as the instance to leave out, none is.
+/// Number for no instance: as a result, a miss; as the instance to skip, none is skipped.
 inline constexpr std::uint32_t no_instance = std::numeric_limits<std::uint32_t>::max();
 
-/// Kinds of rays, a bit for each; which is which is the caller's.
+/// Kinds of rays, one bit each; the caller defines their meaning.
 using RayKinds = std::uint8_t;
 inline constexpr RayKinds all_ray_kinds = 0xff;
 
 /// An instance takes 64 bytes, and 36 more if its map has more digits than float.
 class Instances {
  public:
-  /// A shape for `add` to pose; returns its number. Equal shapes get the same number.
+  /// Stores a shape for `add`. Returns its number; equal shapes get the same number.
   std::uint32_t define(Shape<double> shape);
-  /// A definition made elsewhere: the same number each time.
+  /// Stores an existing definition. Returns the same number for the same definition.
   std::uint32_t define(const std::shared_ptr<const ShapeDefinition<double>>& shared);
 
   /// `pose` maps the frame of the definition's shape to the world; it must be invertible.
@@ -46,44 +46,44 @@ class Instances {
     add(define(std::move(shape)), pose);
   }
 
-  /// Adds a half-space under a pose. A half-space has no definition and no box; `at` must not be
-  /// called.
+  /// Adds a half-space under a pose. A half-space has no definition and no box, so `at` must not be
+  /// called for it.
   void add(const HalfSpaceBody<double>& half_space, const Affine<double>& pose = {});
 
-  /// Adds a mesh under a pose. A mesh has no definition either, but a box.
+  /// Adds a mesh under a pose. A mesh has a box but no definition.
   void add(std::shared_ptr<const TriangleMesh> mesh, const Affine<double>& pose = {});
 
-  /// Adds `count` instances, the i-th at pose_of(i), which several threads call at once.
+  /// Adds `count` instances, the i-th at pose_of(i). Several threads call pose_of at once.
   void add_many(std::uint32_t definition, std::size_t count,
                 const std::function<Affine<double>(std::size_t)>& pose_of);
 
   /// Removes all instances from the count-th on, which must have shapes.
   void truncate(std::size_t count);
 
-  /// Moves one instance, which is no half-space. Its box is stale until pose_all.
+  /// Moves one instance, which must not be a half-space. Its box is stale until pose_all.
   void set_pose(std::size_t i, const Affine<double>& pose);
 
-  /// Puts another definition in the place of one, at the origin. Its box is stale until pose_all.
+  /// Gives an instance another definition and the identity pose. Its box is stale until pose_all.
   void replace(std::size_t i, std::uint32_t definition) {
     put(i, definition, {});
     are_boxes_stale_ = true;
   }
 
-  /// The pose of a mesh, or of an instance whose body is not moved or scaled by outer maps and
-  /// whose pose keeps lengths, exactly as it was given; else none.
+  /// Pose of an instance exactly as it was given: for meshes, and for shapes without outer maps
+  /// under a pose that keeps lengths. Nothing for other instances.
   std::optional<Affine<double>> plain_pose(std::size_t i) const;
 
-  /// Shows the i-th instance to rays of these kinds only; call when all have been added.
+  /// Shows the i-th instance to rays of these kinds only. Call after all instances are added.
   void show_to(std::size_t i, RayKinds kinds);
   bool is_shown_to(std::size_t i, RayKinds kinds) const {
     return shown_to_.empty() || (shown_to_[i] & kinds) != 0;
   }
-  /// Indexed by instance; null if all are shown to all rays.
+  /// Kinds of rays by instance; null if all instances are shown to all rays.
   const RayKinds* shown_to() const { return shown_to_.empty() ? nullptr : shown_to_.data(); }
 
-  /// Moves every instance: the i-th to pose_of(i), which several threads call at once. With a
-  /// movement_of, the i-th follows movement_of(i) while time goes from 0 to 1, and its box holds
-  /// all of that motion. Boxes are stale until they are computed again.
+  /// Moves every instance: the i-th to pose_of(i). With movement_of, the i-th follows
+  /// movement_of(i) while time goes from 0 to 1, and its box contains all of that motion. Several
+  /// threads call the functions at once. Boxes are stale until they are computed again.
   void pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
                 const std::function<Movement<double>(std::size_t)>& movement_of = {});
 
@@ -97,21 +97,21 @@ class Instances {
   Vec3<double> seen_by(std::size_t i, const Vec3<double>& point, double time) const {
     return movements_.empty() ? point : movements_[i].unmoved(point, time);
   }
-  /// A direction as it sees it, and the way back: it may have turned since time 0.
+  /// Rotates a direction to the instance's orientation at time 0, and back.
   Vec3<double> unturned(std::size_t i, const Vec3<double>& direction, double time) const {
     return movements_.empty() ? direction : movements_[i].unturned(direction, time);
   }
   Vec3<double> turned(std::size_t i, const Vec3<double>& direction, double time) const {
     return movements_.empty() ? direction : movements_[i].turned(direction, time);
   }
-  /// The result of a cast at the ray as the instance sees it, in the world.
+  /// Converts the result of casting the ray returned by seen_by() to the world.
   CastResult<double> turned(std::size_t i, CastResult<double> cast, double time) const {
     if (!movements_.empty()) cast.normal = movements_[i].turned(cast.normal, time);
     return cast;
   }
 
-  /// True if two instances at rest have the same shape, place and ray kinds, to the last digit.
-  /// Not for half-spaces and meshes.
+  /// True if two instances at rest have exactly the same shape, place and ray kinds. Not for
+  /// half-spaces and meshes.
   bool are_same(std::size_t i, std::size_t j) const;
 
   /// Makes room for `count` more instances.
@@ -131,9 +131,9 @@ class Instances {
   bool is_mesh(std::size_t i) const { return places_[i].body == body_of_mesh; }
   const PosedMesh& mesh_of(std::size_t i) const { return meshes_[index_of_mesh(i)]; }
 
-  /// True of an instance of a definition: neither a half-space nor a mesh.
+  /// True if the instance has a definition: it is neither a half-space nor a mesh.
   bool has_shape(std::size_t i) const { return places_[i].body < body_of_mesh; }
-  /// True if any has none.
+  /// True if there are half-spaces or meshes.
   bool have_shapeless() const { return !half_spaces_.empty() || !meshes_.empty(); }
 
   /// Returns an instance with a shape, prepared for casts. Refers to this object, which must
@@ -155,7 +155,8 @@ class Instances {
             ShapeDefinition<double>::plain_centre({map.transpose(), origin}, body.centre), turn,
             (body.is_turned ? definition.plain_loss() : 0) + loss};
   }
-  /// Returns the place of an instance at rest for the filter. Writes `map`, which must outlive it.
+  /// Returns the place of an instance at rest for the filter. Writes `map`, which must outlive the
+  /// place.
   FormPlace form_place(std::size_t i, Mat3<double>& map) const {
     const InstancePlace& place = places_[i];
     const InstanceBody& body = bodies_[place.body];
@@ -166,7 +167,7 @@ class Instances {
             body.is_plain && has_map ? rounded_plain_centre(origin, map, body.centre) : origin,
             body.is_turned ? &map : nullptr};
   }
-  /// For a ray as the instance sees it: allows for what `seen_by` has rounded.
+  /// Same as at(), for a ray returned by seen_by(): includes the rounding of seen_by().
   PreparedShape<double> at_seen_by(std::size_t i, const Ray<double>& ray) const {
     const double loss = loss_of_seen_by(i, ray);
     return loss == 0 ? at(i) : at(i, loss * to_inner(i).norm());
@@ -186,8 +187,8 @@ class Instances {
   const std::vector<InstanceBody>& bodies() const { return bodies_; }
   const Screen* screens() const { return screens_.data(); }
 
-  /// If all instances with shapes that rays meet are screened by forms of one kind that are
-  /// their shapes: that kind, else none.
+  /// Returns the form's kind if all instances with shapes that rays can hit are screened by forms
+  /// of that kind which equal their shapes; otherwise none.
   FormKind kind_of_all() const;
 
   [[gnu::always_inline]] void prefetch(std::size_t i) const { __builtin_prefetch(&places_[i]); }
@@ -198,14 +199,14 @@ class Instances {
     __builtin_prefetch(from + sizeof(TrailingDigits) - 1);
   }
 
-  /// Half the longest side of the instance's box in the world, up to rounding; 0 of a half-space.
+  /// Half the longest side of the instance's box in the world, up to rounding; 0 for a half-space.
   double half_extent(std::size_t i) const;
 
-  /// Boxes that hold the instances and their rounding; those of half-spaces have no meaning. Call
-  /// once after each change, since they are given away.
+  /// Moves out the boxes that contain the instances, including rounding; boxes of half-spaces are
+  /// undefined. Call once after each change.
   FirstTouchVector<Bounds<float>> take_boxes() { return std::exchange(boxes_, {}); }
 
-  /// True if no box was taken or is stale.
+  /// True if the boxes were not taken and are not stale.
   bool has_boxes() const { return boxes_.size() == places_.size() && !are_boxes_stale_; }
 
   std::size_t definitions() const { return definitions_.size(); }
@@ -213,13 +214,13 @@ class Instances {
     return *definitions_[number].shared;
   }
 
-  /// Leaves out the points of hulls, which shapes share.
+  /// Memory used, without the points of hulls, which shapes share.
   std::size_t bytes() const;
 
  private:
   struct Defined {
     std::shared_ptr<const ShapeDefinition<double>> shared;
-    /// Bodies of this definition, or no_body.
+    /// Indices of this definition's bodies, or no_body.
     std::array<std::uint32_t, 5> bodies;
   };
 
@@ -231,7 +232,7 @@ class Instances {
     bool is_zero() const { return loss == 0 && centre.isZero(0); }
   };
 
-  /// An instance's map, and which body it has.
+  /// Map of an instance, and which body of the definition it uses.
   struct Placed {
     std::size_t which = 0;
     TrailingDigits digits = {};
@@ -240,18 +241,18 @@ class Instances {
     Rest rest;
   };
 
-  /// In InstancePlace::body, of meshes.
+  /// Value of InstancePlace::body for meshes.
   static constexpr std::uint32_t body_of_mesh = no_body - 1;
 
   std::size_t index_of_mesh(std::size_t i) const;
   Mat3<double> to_inner(std::size_t i) const;
   std::uint32_t number_of(std::shared_ptr<const ShapeDefinition<double>> definition);
   std::uint32_t body_with(std::uint32_t definition, std::size_t which);
-  /// Writes the place but for its body, which `keep` finds. Only `keep` is not for several threads.
+  /// Writes the place except for its body, which `keep` finds. `keep` is not thread-safe.
   Placed placed(std::size_t i, std::uint32_t definition, const Affine<double>& pose);
   void keep(std::size_t i, std::uint32_t definition, const Placed& placed);
   void put(std::size_t i, std::uint32_t definition, const Affine<double>& pose);
-  /// definition_of returns no_body for half-spaces.
+  /// `definition_of` must return no_body for half-spaces.
   void place_many(std::size_t first, std::size_t count,
                   const std::function<std::uint32_t(std::size_t)>& definition_of,
                   const std::function<Affine<double>(std::size_t)>& pose_of);
@@ -260,16 +261,16 @@ class Instances {
   std::unordered_map<const void*, std::uint32_t> shared_;      ///< by address
   std::unordered_multimap<std::size_t, std::uint32_t> equal_;  ///< by hash of the shape
   std::vector<InstanceBody> bodies_;
-  std::vector<Screen> screens_;  ///< of each body
+  std::vector<Screen> screens_;  ///< by body
   FirstTouchVector<InstancePlace> places_;
   FirstTouchVector<TrailingDigits> digits_;  ///< by instance; empty if all are zero
   std::unordered_map<std::uint32_t, Rest> rests_;
-  std::unordered_map<std::uint32_t, Mat3<double>> wide_;  ///< maps that float does not hold
+  std::unordered_map<std::uint32_t, Mat3<double>> wide_;  ///< maps that do not fit in float
   std::vector<Movement<double>> movements_;               ///< by instance; empty if all are at rest
   FirstTouchVector<Bounds<float>> boxes_;
   bool are_boxes_stale_ = false;
   std::vector<PosedHalfSpace> half_spaces_;  ///< in the order of their instances
-  std::vector<PosedMesh> meshes_;            ///< as well
+  std::vector<PosedMesh> meshes_;            ///< in the order of their instances
   std::vector<RayKinds> shown_to_;           ///< by instance; empty if all are shown to all rays
 };
 

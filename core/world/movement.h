@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Motion of a body while time goes from 0 to 1: the body turns at constant speed about a pivot,
-// which goes along a line. A ray meets the body at its time exactly where the ray, moved back,
-// meets the body at its place of time 0: no shape is stretched or put together from slices.
+// Motion of a body while time goes from 0 to 1: the body turns at a constant rate about a pivot
+// that moves along a line. To cast a ray at a time, the ray is moved back and cast at the body's
+// pose of time 0: exact, without stretched or sliced shapes.
 #pragma once
 
 #include <cmath>
@@ -22,7 +22,7 @@ struct Movement {
 
   bool stands() const { return angle == T(0) && shift.isZero(T(0)); }
 
-  /// Rotates a direction back to the body's orientation at time 0, and forth.
+  /// Rotates a direction back to the body's orientation at time 0, and forward again.
   Vec3<T> unturned(const Vec3<T>& direction, T time) const {
     return angle == T(0) ? direction : by_angle(direction, -angle * time);
   }
@@ -30,7 +30,7 @@ struct Movement {
     return angle == T(0) ? direction : by_angle(direction, angle * time);
   }
 
-  /// The ray as the body sees it, and a point.
+  /// Moves a ray, or a point, back with the body to time 0.
   Ray<T> unmoved(const Ray<T>& ray, T time) const {
     return {unmoved(ray.origin, time), unturned(ray.direction, time), ray.t_max};
   }
@@ -39,14 +39,14 @@ struct Movement {
     return angle == T(0) ? unshifted : Vec3<T>(pivot + unturned(unshifted - pivot, time));
   }
 
-  /// Bounds the error of a ray from there that is moved back, near the pivot or the origin: a
-  /// dozen roundings of the way between them.
+  /// Bounds the error of moving back a ray with this origin, near the pivot or near the origin: a
+  /// dozen roundings of the distance between them.
   T rounding(const Vec3<T>& origin) const {
     constexpr T roundings = T(6) * std::numeric_limits<T>::epsilon();
     return roundings * (origin.norm() + pivot.norm() + shift.norm());
   }
 
-  /// Place at `time` of a point of the body that was at `point` at time 0.
+  /// Position at `time` of the body's point that is at `point` at time 0.
   Vec3<T> moved(const Vec3<T>& point, T time) const {
     return angle == T(0) ? Vec3<T>(point + time * shift)
                          : Vec3<T>(pivot + time * shift + turned(point - pivot, time));
@@ -61,8 +61,8 @@ struct Movement {
     return now;
   }
 
-  /// Holds the body all the while, from boxes that hold it at time 0 and 1. A point at the distance
-  /// rho from the axis is never further than rho angle^2 / 8 from the line between its two ends,
+  /// Returns a box that contains the body at all times, given its boxes at time 0 and 1. A point at
+  /// the distance rho from the axis is at most rho angle^2 / 8 from the line between its ends,
   /// since its path's second derivative is rho angle^2.
   Bounds<T> swept(const Bounds<T>& begin, const Bounds<T>& end) const {
     Bounds<T> all = begin;
@@ -79,7 +79,7 @@ struct Movement {
     const T beside = std::sqrt(rho_squared) * angle * angle / T(8);
     all.lower.array() -= beside;
     all.upper.array() += beside;
-    // Nor does it ever leave the ball around the pivot.
+    // The body also stays in the ball around the pivot.
     const T reach = std::sqrt(reach_squared);
     Bounds<T> balls{pivot - Vec3<T>::Constant(reach), pivot + Vec3<T>::Constant(reach)};
     balls.extend(Bounds<T>{balls.lower + shift, balls.upper + shift});

@@ -10,8 +10,8 @@
 namespace minkray {
 namespace {
 
-/// The distance of two boxes, or a little less: they are floats, which rounding of this stays
-/// below.
+/// Lower bound of the distance of two boxes. The padding covers all rounding, as the boxes' numbers
+/// are floats.
 double distance(const Bounds<float>& a, const Bounds<float>& b) {
   double squared = 0;
   for (int axis = 0; axis < 3; ++axis) {
@@ -25,7 +25,7 @@ double distance(const Bounds<float>& a, const Bounds<float>& b) {
 
 using Indices = std::pair<std::size_t, std::size_t>;
 
-/// A child of a hierarchy: a node or one of the bodies.
+/// A child in a BVH: a node or a body.
 struct Child {
   std::uint32_t what;
   Bounds<float> box;
@@ -144,7 +144,7 @@ std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& 
     const double of_a = value_of(a), of_b = value_of(b);
     return of_a < of_b || (of_a == of_b && a.b < b.b);
   };
-  // The nearest box first: what is further than the worst of those kept ends the search.
+  // Nearest boxes first: a box further away than the worst body kept ends the search.
   struct Open {
     double distance;
     std::uint32_t what;
@@ -158,7 +158,7 @@ std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& 
     open.pop();
     const bool is_full = best.size() == count;
     if (top.distance > at_most) break;
-    // Boxes that meet give no bound on the depth of the bodies' overlap.
+    // Overlapping boxes give no bound of the depth of the bodies' overlap.
     if (is_full && top.distance > std::max(value_of(best.back()), 0.0)) break;
     if ((top.what & BvhNode::leaf) == 0) {
       const BvhNode& node = world.hierarchy().nodes[top.what];

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Exact casts at pairs of a ray and an instance: four of a body at a time where it has a closed
-// form, rays at one instance together where it has none.
+// Exact casts for pairs of a ray and an instance: four pairs of a body at a time if it has a closed
+// form; otherwise, all rays at one instance together.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// A pair, and where it is met at the earliest.
+/// A ray, an instance, and a lower bound of t at which the ray hits it.
 struct OpenPair {
   std::uint32_t ray, instance;
   float first;
@@ -28,7 +28,7 @@ class PairCaster {
         rays_(rays),
         counts_(counts),
         on_found_(std::move(on_found)) {
-    // Bodies have queues where there are rays enough to fill them.
+    // Uses queues only if there are enough rays to fill them.
     if (instances.bodies().size() <= rays.size() && !instances.move())
       queues_.resize(instances.bodies().size());
   }
@@ -44,13 +44,13 @@ class PairCaster {
     if (queue.count == lanes) cast_together(queue, of);
   }
 
-  /// Casts at all that still wait.
+  /// Casts all pairs that are still queued.
   void finish() {
     for (std::size_t body = 0; body < queues_.size(); ++body)
       if (queues_[body].count != 0) cast_together(queues_[body], instances_.bodies()[body]);
   }
 
-  /// Casts at pairs whose bodies have no closed form, those that are met first before others.
+  /// Casts pairs whose bodies have no closed form, by instance and then by lower bound.
   /// is_due(pair) returns true if a pair still matters.
   template <class IsDue>
   void cast_formless(std::vector<OpenPair>& pairs, const IsDue& is_due) {
@@ -85,7 +85,7 @@ class PairCaster {
     pairs.clear();
   }
 
-  /// Rays with a cast that did not converge; some of them more than once.
+  /// Rays with a cast that did not converge; a ray may occur several times.
   const std::vector<std::uint32_t>& exhausted() const { return exhausted_; }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Queues the pairs of a ray and an instance that a walk finds: eight of a kind at a time go to
-// float lanes, which sort most of them out. Pairs that may meet are passed on.
+// Queues pairs of a ray and an instance found by a traversal: eight pairs of a kind at a time are
+// tested in float lanes, which discard most of them. Pairs that may hit are passed on.
 #pragma once
 
 #include <array>
@@ -13,22 +13,22 @@
 
 namespace minkray {
 
-/// Largest parameter of interest of each ray: no further than its first sure hit.
+/// Upper limit of t for each ray: at most its first certain hit.
 struct RayLimits {
   std::vector<SlabRay> slabs;
-  std::vector<float> t;            ///< not below the double that it represents
-  std::vector<std::uint8_t> sure;  ///< 1: it is that of a pair that is not cast at yet
+  std::vector<float> t;            ///< rounded up from double
+  std::vector<std::uint8_t> sure;  ///< 1: the limit comes from a pair that has not been cast yet
 
   explicit RayLimits(const RaySpan& rays) : slabs(rays.size()), t(rays.size()), sure(rays.size()) {
     for (std::size_t i = 0; i < rays.size(); ++i) t[i] = detail::float_above(rays.ray(i).t_max);
     make_slabs_avx2(rays.data(), rays.stride(), rays.size(), slabs.data());
   }
-  /// Nothing else matters to this ray.
+  /// Ends the ray: no further instance matters.
   void end(std::size_t ray) {
     t[ray] = -1;
     slabs[ray].numbers.t_max = -1;
   }
-  /// Lowers the limit to t = `at`, where the ray is met at the latest.
+  /// Lowers the limit to t = `at`, an upper bound of the first hit.
   void lower(std::size_t ray, double at) {
     const float above = detail::float_above(at);
     if (!(above < t[ray])) return;
@@ -37,12 +37,12 @@ struct RayLimits {
   }
 };
 
-/// Calls on_open(ray, instance, first, last, is_sure) for pairs that may be met: at `first` at the
-/// earliest, and if that is sure, at `last` at the latest.
+/// Calls on_open(ray, instance, first, last, is_sure) for pairs that may hit: at t >= first and, if
+/// `is_sure`, certainly at t <= last.
 template <class OnOpen>
 class PairScreen {
  public:
-  /// kind_of_all: of all bodies, or none.
+  /// `kind_of_all`: the form's kind if all bodies have the same, otherwise none.
   PairScreen(const Instances& instances, FormKind kind_of_all, const RaySpan& rays,
              const RayLimits& limits, OnOpen on_open)
       : instances_(instances),
@@ -51,7 +51,7 @@ class PairScreen {
         rays_(rays),
         on_open_(std::move(on_open)) {}
 
-  /// Pairs wait until the next ones come, and meanwhile their places are fetched.
+  /// Keeps the pairs until the next call, and prefetches their places meanwhile.
   void take(const std::uint32_t* rays, const std::uint32_t* instances, std::size_t pairs) {
     if (kind_of_all_ != FormKind::none) {
       std::size_t from = 0;
@@ -111,7 +111,7 @@ class PairScreen {
     count_ = 0;
   }
 
-  /// Screens eight entries; only the first `used` count.
+  /// Screens eight entries. Only the first `used` are valid.
   void look_at(FormKind kind, std::uint32_t* ray, std::uint32_t* instance, std::size_t used) {
     for (std::size_t i = used; i < screen_lanes; ++i) {
       ray[i] = ray[0];
@@ -129,10 +129,10 @@ class PairScreen {
     }
   }
 
-  /// Rays as instances on the move see them.
+  /// Screens pairs with moving instances: moves the rays to the instances' time 0.
   ScreenBits of_moving(FormKind kind, const std::uint32_t* ray, const std::uint32_t* instance,
                        Screened& answers) const {
-    std::array<Ray<double>, screen_lanes + 1> seen;  // one more is read beyond the last
+    std::array<Ray<double>, screen_lanes + 1> seen;  // one more, which vector loads read
     std::array<float, screen_lanes> limits;
     std::array<std::uint32_t, screen_lanes> number;
     for (std::uint32_t i = 0; i < screen_lanes; ++i) {

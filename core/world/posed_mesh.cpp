@@ -12,14 +12,14 @@
 namespace minkray {
 namespace {
 
-/// The ray's origin and direction must be less, so that products of three numbers are numbers.
+/// Limit of the ray's origin and direction, so that products of three numbers do not overflow.
 constexpr double largest_number = 0x1p300;
 
-/// A matrix rounds once for each of its numbers, a product of three numbers with three others four
-/// times: five halves of epsilon; six halves are allowed.
+/// Rounding of a map: once for each number of the matrix and four times for a product of three
+/// pairs, 2.5 epsilon; 3 are allowed.
 constexpr double map_rounding = 3 * tolerance::epsilon<double>;
 
-/// Directions that are shorter, or longer than its inverse, are brought to a length of about 1.
+/// Directions that are shorter, or longer than the inverse, are scaled to a length of about 1.
 constexpr double shortest = 0x1p-64;
 
 /// The ray in the mesh's frame. Its direction is longer by 2^exponent there.
@@ -61,8 +61,8 @@ NearRay near_ray(const PosedMesh& posed, const Ray<double>& ray,
   return near;
 }
 
-/// The remainder of t, lost where t was rounded: from far away t has too few digits to determine
-/// the place.
+/// Remainder of t lost by rounding: if the origin is far away, t alone has too few digits to locate
+/// the hit.
 double rest_of(const Vec3<double>& corner, const Vec3<double>& normal, const Ray<double>& ray,
                double t) {
   TwoFoldVec3<double> from_corner = exact_difference(ray.origin, corner);
@@ -77,7 +77,7 @@ double t_min_of(const PosedMesh& posed, const NearRay& near, bool leaves) {
   return leaving_mesh * reach / near.ray.direction.cwiseAbs().maxCoeff();
 }
 
-/// The answer to a ray whose numbers are too large, or whose direction is zero.
+/// Result for a ray whose numbers are too large, or whose direction is zero.
 MeshCast without_hit(const Ray<double>& ray) {
   MeshCast answer;
   if (!ray.direction.isZero(0)) return answer;  // exhausted
@@ -102,7 +102,7 @@ MeshCast cast_of(const PosedMesh& posed, const NearRay& near, const PartHit& hit
   if (!std::isfinite(near.in_world(hit.t))) return {};
   answer.part = hit.part;
   const Vec3<double> normal = posed.mesh->normal(hit.part) * (hit.is_back ? -1.0 : 1.0);
-  // If the ray itself is uncertain, its way to the triangle's plane is longer or shorter.
+  // If the ray is uncertain, so is its distance to the triangle's plane.
   const double beside =
       near.origin_loss + loss * posed.to_mesh.norm() + hit.t * near.direction_loss;
   double error = hit.error;
@@ -174,7 +174,7 @@ CastResult<double> cast_exit(const PosedMesh& posed, const Ray<double>& ray) {
   if (!near.is_number) return exit;
   const std::vector<PartHit> hits = all_parts(*posed.mesh, near.ray);
   if (hits.empty()) return exit;
-  // Triangles that share the corner or edge where the ray enters are met at one place.
+  // Triangles that share the corner or edge where the ray enters count as one hit.
   const double same = leaving_mesh * (hits[0].t + posed.mesh->bounds().reach_of_centre().norm());
   std::size_t last = 0;
   while (last + 1 < hits.size() && hits[last].t - hits[0].t <= same) ++last;

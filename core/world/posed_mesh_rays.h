@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Many rays at one posed mesh: the same answers as one by one, and faster.
+// Casts many rays at one posed mesh: faster than single casts, with the same results.
 #pragma once
 
 #include <span>
@@ -31,7 +31,7 @@ void cast_rays(const PosedMesh& posed, std::span<const MeshQuery> queries, PartC
   };
   cast_for(posed, queries, counts, CastTaker{plain, &take});
 }
-/// met[i] becomes 1 if is_met is true of queries[i], 0 if not; `most` and `loss` do not matter.
+/// Sets met[i] to 1 if is_met is true for queries[i], to 0 if not; ignores `most` and `loss`.
 void are_met(const PosedMesh& posed, std::span<const MeshQuery> queries,
              std::span<std::uint8_t> met, PartCounts& counts);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Up to 64 rays from one point that run nearly alike, such as a camera's for 8 by 8 pixels: one
-// walk through the hierarchy for what bounds them all, float lanes that find for each ray which
-// instance it meets first, and one exact cast for it.
+// Traces up to 64 rays from one point with similar directions, such as a camera's for 8 by 8
+// pixels: one BVH traversal with the bounds of all rays; float lanes find the first instance for
+// each ray; then one exact cast per ray.
 #pragma once
 
 #include "core/bvh/bvh.h"
@@ -13,13 +13,13 @@ namespace minkray {
 
 inline constexpr std::size_t rays_of_block = 64;
 
-/// Rays of a block. Numbers are parameters of the rays.
+/// Result for the rays of a block. Numbers are ray parameters.
 struct alignas(32) BlockAnswer {
-  /// Indexed by ray: nothing beyond `limit` is of interest; `lo` is the earliest parameter at
-  /// which the sure hit's instance is met, infinite if there is none.
+  /// Indexed by ray: hits beyond `limit` do not matter; `lo` is a lower bound of t for the certain
+  /// hit, infinite if there is none.
   float limit[rays_of_block], lo[rays_of_block];
-  std::uint32_t instance[rays_of_block];  ///< the one that is surely met first, or no_instance
-  /// Pairs that may be met before that, or instead of it.
+  std::uint32_t instance[rays_of_block];  ///< of the certain hit, or no_instance
+  /// Pairs that may hit before the certain hit, or instead of it.
   struct Other {
     float first;
     std::uint32_t ray, instance;
@@ -30,7 +30,7 @@ struct alignas(32) BlockAnswer {
   std::uint32_t nodes;
 };
 
-/// Data that a block is traced through.
+/// Scene data for tracing a block.
 struct BlockWorld {
   const BvhNode* nodes;
   const InstancePlace* places;
@@ -38,9 +38,9 @@ struct BlockWorld {
   const RayKinds* shown_to;  ///< by instance; null if all are shown
 };
 
-/// Rays lie `stride` bytes apart and are all of these kinds; `limits` by ray, or null: nothing
-/// beyond is of interest. False if the rays do not run alike, or too much is undecided. On machines
-/// that have AVX2 and FMA.
+/// Traces `count` rays that lie `stride` bytes apart and all have these kinds. `limits` (or null)
+/// has an upper limit of t per ray. Returns false if the directions differ too much, or too many
+/// pairs are undecided. Requires AVX2 and FMA.
 bool trace_block_avx2(const BlockWorld& world, const char* rays, std::size_t stride,
                       std::size_t count, RayKinds kinds, const float* limits, BlockAnswer& answer);
 
@@ -51,8 +51,8 @@ struct FourPairs {
   const TrailingDigits* digits[4];  ///< null if there are none
 };
 
-/// cast_ray for the lanes; those in doubt are neither hit, inside nor miss. On machines that have
-/// AVX2 and FMA.
+/// Same as cast_ray, for the lanes; lanes in doubt are neither hit, inside nor miss. Requires AVX2
+/// and FMA.
 void cast_four_avx2(const InstanceBody& body, const FourPairs& pairs, LaneBits lanes,
                     CastPacket<double>& answers);
 

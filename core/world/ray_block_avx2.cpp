@@ -10,8 +10,8 @@
 namespace minkray {
 namespace {
 
-/// An instance as all rays of a block see it: at parameter k the middle one is at `near`, in the
-/// form's frame, and runs along `d`; others run along d + map delta.
+/// An instance in the frame of its form for all rays of a block: at parameter k the middle ray is
+/// at `near` and has the direction `d`; other rays have d + map delta.
 struct Seen {
   W map[3][3], near[3], d[3];
   W k, E, share;
@@ -48,8 +48,8 @@ void see(const Block& block, const InstancePlace& place, const ScreenForm& form,
     dd += d * d;
     for (int column = 0; column < 3; ++column) seen.map[row][column] = W(scale * m[3 * column]);
   }
-  // Magnitude of all numbers that were added up: see `look` of core/screen/screen_kernel_avx2.cpp,
-  // at the worst of the rays.
+  // Magnitude of all numbers that are summed, for the worst ray: see `look` in
+  // core/screen/screen_kernel_avx2.cpp.
   const auto wide = static_cast<float>(block.widest);
   const float size = std::sqrt(map_squared) * largest_scale;
   const float reach_near = static_cast<float>(std::sqrt(near_squared)) + std::abs(k) * wide;
@@ -66,8 +66,9 @@ void see(const Block& block, const InstancePlace& place, const ScreenForm& form,
       least_d > 0 && E < tolerance::screen_largest_share * std::min(form.least, form.R);
 }
 
-/// Eight rays: where they meet the form at the earliest and at the latest; `box` is where they
-/// enter its box. Not open: they miss. Latest infinite: not sure.
+/// Lower and upper bounds of t for eight rays at the form; `box` has the parameters at which they
+/// enter its box. Lanes that are not open miss; an infinite upper bound means that the hit is not
+/// certain.
 template <FormKind kind>
 [[gnu::always_inline]] inline void look(const Seen& seen, const FormInLanes& form,
                                         const Vec3<W>& delta, const W& box, W& first, W& last,
@@ -105,10 +106,10 @@ template <FormKind kind>
   last = select(sure, hi, W(infinity));
 }
 
-/// Eight more are written behind the last.
+/// Stores write up to eight items behind the last.
 constexpr int room = all_rays + 8;
 
-/// Rays of a block that meet the box of one instance, side by side.
+/// Rays of a block that hit the box of one instance, in contiguous arrays.
 struct MeetingRays {
   std::uint32_t count = 0;
   alignas(32) float boxes[room], limits[room], los[room], deltas[3][room];
@@ -161,7 +162,7 @@ void gather_meeting(const Block& block, const BvhNode& node, int child, const Bl
   meeting.count = count;
 }
 
-/// False if there is no room for another.
+/// Returns false if there is no room for another.
 bool add_other(BlockAnswer& answer, float first, std::uint32_t ray, std::uint32_t instance) {
   if (answer.other_count == BlockAnswer::most_others) return false;
   answer.others[answer.other_count++] = {first, ray, instance};
@@ -210,7 +211,7 @@ Looked look_at_instance(const Seen& seen, const Screen& screen, const MeetingRay
   return nearer ? Looked::nearer : Looked::nothing_nearer;
 }
 
-/// False if too much is undecided.
+/// Returns false if too many pairs are undecided.
 bool walk_block(const BlockWorld& world, const Block& block, RayKinds kinds, BlockAnswer& answer) {
   struct alignas(16) Waiting {
     float enter;
@@ -300,7 +301,7 @@ bool trace_block_avx2(const BlockWorld& world, const char* rays, std::size_t str
 }  // namespace minkray
 #else
 namespace minkray {
-/// Never called on other machines.
+/// Never called on machines without AVX2.
 bool trace_block_avx2(const BlockWorld&, const char*, std::size_t, std::size_t, RayKinds,
                       const float*, BlockAnswer&) {
   return false;

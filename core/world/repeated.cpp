@@ -8,7 +8,7 @@
 namespace minkray {
 namespace {
 
-/// Instances that are the same have the same hash.
+/// Equal instances have equal hashes.
 std::uint64_t hash_of(const Instances& instances, std::uint32_t i) {
   const InstancePlace& place = instances.places()[i];
   std::uint64_t hash = place.body;
@@ -26,7 +26,7 @@ std::vector<std::uint32_t> repeated_instances(const Instances& instances) {
   std::vector<std::uint32_t> repeated;
   const auto count = static_cast<std::uint32_t>(instances.size());
   if (instances.move() || count < 3) return repeated;
-  // Most worlds have none: a small table of counts by hash shows that first.
+  // Most worlds have no repeated instances: a small table of counts by hash shows this quickly.
   const std::uint64_t slots = std::bit_ceil(std::uint64_t(4) * count);
   std::vector<std::uint8_t> seen(slots);
   const auto slot_of = [&](std::uint32_t i) { return hash_of(instances, i) & (slots - 1); };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Instances that occur several times in one place: rays need only find two of them.
+// Finds instances that occur several times at one place: rays only need two of them.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace minkray {
 
-/// The instances that no ray meets first, in ascending order: two others of less index have the
-/// same shape, place and ray kinds, and a ray leaves out one instance at most. None if any
-/// instance moves.
+/// Returns the instances that no ray can hit first, in ascending order: two others with lower
+/// indices have the same shape, place and ray kinds, and a ray skips one instance at most. Empty if
+/// any instance moves.
 std::vector<std::uint32_t> repeated_instances(const Instances& instances);
 
 }  // namespace minkray

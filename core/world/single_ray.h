@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Traces one ray through the hierarchy, near boxes first: float lanes screen the instances of a
-// node together, and those that may be met are left to be cast at.
+// Traces one ray through the BVH, near boxes first: float lanes screen the instances of a node
+// together; the caller casts the ray at those that it may hit.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// Data that a single ray is traced through.
+/// Scene data for tracing a single ray.
 struct SingleWorld {
   const BvhNode* nodes;
   const InstancePlace* places;
@@ -24,11 +24,11 @@ struct SingleRay {
   SlabRay slabs;
   std::uint32_t skip;
   RayKinds kinds;
-  /// Nothing beyond is of interest. Lowered to where an instance is surely met at the latest.
+  /// Upper limit of t; lowered to the upper bound of a certain hit.
   float limit;
-  bool is_sure = false;       ///< an instance is surely met
-  bool ends_if_sure = false;  ///< that one is met is all that matters
-  /// Instances that may be met, and where at the earliest.
+  bool is_sure = false;       ///< the ray certainly hits an instance
+  bool ends_if_sure = false;  ///< any certain hit ends the search
+  /// Instances that the ray may hit, with lower bounds of t.
   struct Candidate {
     std::uint32_t instance;
     float first;
@@ -39,7 +39,7 @@ struct SingleRay {
   std::uint32_t nodes = 0;  ///< visited
 };
 
-/// False if there are too many candidates. On machines that have AVX2 and FMA.
+/// Returns false if there are too many candidates. Requires AVX2 and FMA.
 bool trace_single_avx2(const SingleWorld& world, SingleRay& ray);
 
 }  // namespace minkray

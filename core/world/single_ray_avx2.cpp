@@ -11,7 +11,8 @@ namespace {
 
 using Lanes = Wide<float, 8, IsaAvx2>;
 
-/// Instances whose boxes are met wait until they fill the lanes, or until no node is nearer.
+/// Collects instances whose boxes the ray hits until they fill the lanes, or until no node is
+/// nearer.
 class Pending {
  public:
   Pending(const SingleWorld& world, SingleRay& ray)
@@ -31,7 +32,7 @@ class Pending {
     __builtin_prefetch(world_.places + instance);
   }
 
-  /// Screens all candidates. False if there are too many.
+  /// Screens all candidates. Returns false if there are too many.
   bool look() {
     while (count_ != 0) {
       const FormKind kind = kind_of(count_ - 1);
@@ -62,8 +63,7 @@ class Pending {
     return world_.screens[world_.places[instance_[i]].body].kind;
   }
 
-  /// The contents of a box that is entered after this many steps have no less t: SlabRay::limit
-  /// the other way round.
+  /// Lower bound of t inside a box entered at this parameter: the inverse of SlabRay::limit.
   float least_t(float entered) const {
     const double from = static_cast<double>(entered) - static_cast<double>(slab_tiny);
     return static_cast<float>(from / (ray_.slabs.steps * static_cast<double>(hit_padding)));
@@ -163,7 +163,7 @@ bool trace_single_avx2(const SingleWorld& world, SingleRay& ray) {
 }  // namespace minkray
 #else
 namespace minkray {
-/// Never called on other machines.
+/// Never called on machines without AVX2.
 bool trace_single_avx2(const SingleWorld&, SingleRay&) {
   return false;
 }

@@ -10,12 +10,12 @@
 namespace minkray {
 namespace {
 
-/// A hierarchy whose boxes have moved is kept until rays are expected to visit this many times as
-/// much as when it was built. Rebuilding 10,000 boxes takes as long as some ten thousand rays, so
-/// that any picture pays for it; what is gained by waiting is small, too.
+/// A refitted BVH is kept until the expected visits per ray exceed this many times those after its
+/// build. Rebuilding 10,000 boxes takes as long as some ten thousand rays, so a rebuild pays for
+/// any picture.
 constexpr double most_visits_after_refit = 1.5;
 
-/// Closed forms and packets answer with the default options only.
+/// Closed forms and packets require the default options.
 bool are_default(const CastOptions<double>& options) {
   const CastOptions<double> standard;
   return options.solver == standard.solver && options.eps_tol == standard.eps_tol &&
@@ -40,7 +40,7 @@ std::vector<Bounds<float>> World::boxes_of_meshes(
   return of_meshes;
 }
 
-/// The hierarchy is of all shapes that a ray may meet first.
+/// The BVH contains all shapes that a ray can hit first.
 void World::build(const FirstTouchVector<Bounds<float>>& boxes) {
   kind_of_all_ = instances_.kind_of_all();
   const std::vector<std::uint32_t> repeated = repeated_instances(instances_);
@@ -70,8 +70,8 @@ void World::build(const FirstTouchVector<Bounds<float>>& boxes) {
         child = BvhNode::leaf | number[child & ~BvhNode::leaf];
 }
 
-// Casts see the ray's own t_max, not that of the nearest hit so far: so their answers, and which of
-// them is the nearest, do not depend on the order of the boxes.
+// Casts use the ray's own t_max, not the nearest hit so far, so that results, and which of them is
+// nearest, do not depend on the order of the boxes.
 void World::closer_hit(const WorldRay& ray, SlabRay& slabs, WorldHit& closest,
                        QueryCounts& counts) const {
   if (closer_shapeless(ray, closest, counts)) slabs.numbers.t_max = slabs.limit(closest.cast.t());
@@ -124,7 +124,8 @@ bool World::closer_candidate(const WorldRay& ray, WorldHit& closest, QueryCounts
     if (result.found() && found.yields_to(instance, result.t())) found = {instance, result};
   }
   const bool is_met = found.found() && found.cast.t() <= static_cast<double>(single.limit);
-  if (single.is_sure && !is_met) return false;  // a solver failed to converge: nothing is sure
+  if (single.is_sure && !is_met)
+    return false;  // a solver failed to converge: the hit is not certain
   closest = found;
   counts += own;
   return true;

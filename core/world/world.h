@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A world of instances: finds the first that a ray hits, using the BVH and solvers.
+// A world of instances: finds the first instance that a ray hits, using the BVH and solvers.
 #pragma once
 
 #include <cstdint>
@@ -35,8 +35,8 @@ class HitReceiver {
   virtual void take(std::size_t first, std::uint64_t which, const BlockHits& hits) = 0;
 };
 
-/// Any number of threads may query a world while none changes it. Results depend on the ray only,
-/// bit for bit: not on other rays of a batch, nor on the BVH.
+/// Any number of threads may query a world while none changes it. Results are bit-identical for a
+/// ray, whatever other rays are in the batch and whatever the BVH.
 class World {
  public:
   World() = default;
@@ -62,10 +62,10 @@ class World {
 
   /// Finds the first hits of any number of rays; faster if many, and if neighbours are similar.
   void closest_hits(const RaySpan& rays, HitReceiver& to, QueryCounts& counts) const;
-  /// hits[i] is the result of rays[i].
+  /// Sets hits[i] to the result of rays[i].
   void closest_hits(std::span<const WorldRay> rays, std::span<WorldHit> hits,
                     QueryCounts& counts) const;
-  /// met[i] becomes 1 if rays[i] is occluded, 0 if not.
+  /// Sets met[i] to 1 if rays[i] is occluded, to 0 if not.
   void occluded(const RaySpan& rays, std::span<std::uint8_t> met, QueryCounts& counts) const;
   void occluded(std::span<const WorldRay> rays, std::span<std::uint8_t> met,
                 QueryCounts& counts) const {
@@ -95,7 +95,7 @@ class World {
   std::vector<Bounds<float>> boxes_of_meshes(const FirstTouchVector<Bounds<float>>& boxes) const;
   /// Casts at an instance that does not move, with the default options.
   CastResult<double> cast_at_rest(std::uint32_t instance, const Ray<double>& ray) const;
-  /// Tries float lanes; false if they are inconclusive.
+  /// Tries float lanes; returns false if they are inconclusive.
   bool closer_candidate(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
   SingleRay single_ray(const WorldRay& ray) const;
   SingleWorld single_world() const;
@@ -123,7 +123,7 @@ class World {
                      QueryCounts& counts) const;
   void occluded_in_stream(const RaySpan& rays, std::span<std::uint8_t> met,
                           QueryCounts& counts) const;
-  /// True if float lanes may screen pairs first.
+  /// True if float lanes can screen pairs.
   bool has_screen() const;
   auto prefetching() const {
     return [this](std::uint32_t instance) { instances_.prefetch(instance); };

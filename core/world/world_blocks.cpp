@@ -6,8 +6,8 @@
 namespace minkray {
 namespace {
 
-/// Casts at the instances that lanes found, four rays at a time. Returns the bits of rays whose
-/// cast the closed form does not decide, or which is met beyond its limit.
+/// Casts rays at the instances that lanes found, four at a time. Returns the bits of rays whose
+/// cast the closed form leaves in doubt, or whose hit is beyond the limit.
 class BlockCaster {
  public:
   BlockCaster(const Instances& instances, const RaySpan& rays, const BlockAnswer& answer,
@@ -70,7 +70,7 @@ bool World::answer_block(const RaySpan& rays, std::size_t first, HitReceiver& to
   for (std::size_t i = 0; i < rays.size(); ++i)
     if (rays.skip(i) != no_instance || rays.kinds(i) != kinds) return false;
   const bool has_shapeless = instances_.have_shapeless();
-  std::array<WorldHit, rays_of_block> shapeless;  ///< half-spaces and meshes that are met
+  std::array<WorldHit, rays_of_block> shapeless;  ///< hits of half-spaces and meshes
   std::array<float, rays_of_block> limits;
   QueryCounts of_shapeless;
   std::uint64_t exhausted = 0;
@@ -95,7 +95,7 @@ bool World::answer_block(const RaySpan& rays, std::size_t first, HitReceiver& to
   const std::uint64_t undecided = BlockCaster(instances_, rays, answer, hits).cast_all();
   counts.add_filtered(static_cast<std::uint64_t>(std::popcount(hits.found)));
 
-  // Rays that more than one cast, or another one, decides.
+  // Rays that need several casts, or another cast.
   std::uint64_t special = undecided;
   for (std::size_t i = 0; i < answer.other_count; ++i)
     if (answer.others[i].first <= answer.limit[answer.others[i].ray])
@@ -133,7 +133,7 @@ bool World::answer_block(const RaySpan& rays, std::size_t first, HitReceiver& to
   }
   for (std::uint64_t left = special; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
-    // If a sure hit was not found, or a solver failed to converge, the single ray decides.
+    // Traces the ray alone if a certain hit was not confirmed, or a solver failed to converge.
     const bool is_sure = hits.instance[i] != no_instance;
     const bool is_met =
         closest[i].found() && closest[i].cast.t() <= static_cast<double>(answer.limit[i]);

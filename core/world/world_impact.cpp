@@ -9,8 +9,8 @@
 namespace minkray {
 namespace {
 
-/// A box that holds the body at time 0 and, moved along, at any other time, and what its place is
-/// rounded to.
+/// Box that, moved with the body's velocity, contains the body at any time, including the rounding
+/// of its position.
 Bounds<double> moving_box(const PartsBody& moving, const RigidMotion& motion) {
   if (motion.angular_velocity.isZero(0)) return bounds_of(moving, motion.pose);
   constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();
@@ -20,8 +20,8 @@ Bounds<double> moving_box(const PartsBody& moving, const RigidMotion& motion) {
   return {motion.pose.translation - all, motion.pose.translation + all};
 }
 
-/// The time at which a box that moves by `velocity` first meets another one, or a little less;
-/// infinite if it never does.
+/// Lower bound of the time at which a box with this velocity reaches another box; infinite if it
+/// never does.
 double meeting(const Bounds<double>& moving, const Vec3<double>& velocity,
                const Bounds<float>& other) {
   constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds which of many bodies at rest a moving one touches first, and when: bodies are tried in the
-// order in which the moving one's box meets theirs.
+// Finds which of many bodies at rest a moving body touches first, and when. Bodies are tried in the
+// order in which the moving body's box reaches their boxes.
 #pragma once
 
 #include "core/pair_motion/earliest_impact.h"
@@ -8,8 +8,8 @@
 
 namespace minkray {
 
-/// A is the moving body. All bodies with a bit of `mask` in their category are tested; `known` is
-/// the earliest impact already found with others.
+/// A is the moving body. Tests all bodies with a bit of `mask` in their category. `known` is the
+/// earliest impact found with other bodies.
 EarliestImpact first_impact(const PartsBody& moving, const RigidMotion& motion,
                             const ContactWorld& world, double t_max, std::uint32_t mask,
                             const EarliestImpact& known);

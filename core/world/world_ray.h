@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Rays and answers of a World, and how callers hand over many of them without a copy.
+// Rays and results of a World, and views of many rays without a copy.
 #pragma once
 
 #include <array>
@@ -12,18 +12,19 @@
 
 namespace minkray {
 
-/// Cost of queries, and how often a solver failed to converge. Adds up over rays.
+/// Cost of queries, and how often a solver failed to converge, summed over rays.
 struct QueryCounts {
-  std::uint64_t nodes = 0;  ///< visited; by rays that go together, once for all of them
-  std::uint64_t casts = 0;  ///< shapes cast at
+  std::uint64_t nodes = 0;  ///< visited nodes; rays traced together count once
+  std::uint64_t casts = 0;  ///< casts at single shapes
   std::uint64_t iterations = 0;
   std::uint64_t supports = 0;
-  std::array<std::uint64_t, path_count> by_path = {};  ///< of `casts`, those that a path answered
-  std::uint64_t exhausted = 0;  ///< casts that neither hit nor missed; the shape was passed through
+  std::array<std::uint64_t, path_count> by_path =
+      {};                       ///< number of `casts` that each path answered
+  std::uint64_t exhausted = 0;  ///< casts that did not converge; the ray continues
 
   std::uint64_t answered_by(Path path) const { return by_path[static_cast<std::size_t>(path)]; }
 
-  /// The furthest path that any cast needed; the first, if there was none.
+  /// Returns the last path that any cast needed; the first path without casts.
   Path furthest_path() const {
     std::size_t path = path_count - 1;
     while (path > 0 && by_path[path] == 0) --path;
@@ -44,7 +45,7 @@ struct QueryCounts {
     nodes += parts.nodes;
     add_filtered(parts.triangles);
   }
-  /// Casts that the closed form answered.
+  /// Adds casts answered by the closed form.
   void add_filtered(std::uint64_t count) {
     casts += count;
     by_path[static_cast<std::size_t>(Path::filter)] += count;
@@ -65,7 +66,7 @@ struct QueryCounts {
 struct WorldHit {
   std::uint32_t instance = no_instance;
   CastResult<double>
-      cast;  ///< of that instance (status hit or inside); if none was met, status miss
+      cast;  ///< result for the instance (hit or inside); status miss if there is none
   std::uint32_t part = no_part;  ///< of a mesh: the triangle
 
   static WorldHit miss() {
@@ -80,22 +81,22 @@ struct WorldHit {
   }
 };
 
-/// A ray, the instance that it leaves, its time (from 0 to 1), and its kinds: it meets what is
-/// shown to one of them.
+/// A ray, the instance to skip, its time (0 to 1), and its kinds: it hits instances shown to one of
+/// these kinds.
 struct WorldRay {
   Ray<double> ray;
   std::uint32_t skip = no_instance;
   double time = 0;
   RayKinds kinds = all_ray_kinds;
 
-  /// True if it goes through the instance, whatever that is like.
+  /// True if the ray ignores the instance.
   bool passes(const Instances& instances, std::uint32_t instance) const {
     return instance == skip || !instances.is_shown_to(instance, kinds);
   }
 };
 
-/// Rays where the caller has them, a fixed number of bytes apart: WorldRays, or plain rays that
-/// leave no instance, are cast at time 0 and meet everything.
+/// View of the caller's rays, a fixed number of bytes apart: WorldRays, or plain rays, which skip
+/// no instance, have time 0 and hit all kinds.
 class RaySpan {
  public:
   RaySpan(std::span<const WorldRay> rays)
@@ -128,7 +129,7 @@ class RaySpan {
   }
 
  private:
-  /// WorldRay begins with its ray.
+  /// Casts the pointer: a WorldRay begins with its ray.
   const WorldRay& more(std::size_t i) const {
     return *reinterpret_cast<const WorldRay*>(first_ + i * stride_);
   }

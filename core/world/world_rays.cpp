@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Chooses how rays are traced by checking how they run: blocks of neighbours, a stream of the
-// others, or one by one where there are few.
+// Chooses how rays are traced: neighbouring rays with similar directions as blocks, others as a
+// stream, few rays one by one.
 #include "core/world/ray_block.h"
 #include "core/world/world.h"
 
 namespace minkray {
 namespace {
 
-/// Fewer rays are faster one by one.
+/// Least number of rays for a stream or a block; fewer are faster one by one.
 constexpr std::size_t least_stream = 4, least_block = 16;
 
-/// True if the first and the last ray of a block have one origin and nearly one direction, as all
-/// of a block must.
+/// True if the first and the last ray have the same origin and similar directions, as all rays of a
+/// block must.
 bool may_be_block(const RaySpan& rays) {
   const Ray<double>&first = rays.ray(0), &last = rays.ray(rays.size() - 1);
   if (first.origin != last.origin) return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Half-spaces and meshes. A world has few of them: cast at before shapes, since their hits limit
-// the rays.
+// Casts at half-spaces and meshes. A world has few of them; they come before shapes, as their hits
+// limit the rays.
 #include <algorithm>
 
 #include "core/bvh/traverse.h"
@@ -10,30 +10,31 @@
 namespace minkray {
 namespace {
 
-/// Fewer rays are faster one by one.
+/// Least number of rays to trace together; fewer are faster one by one.
 constexpr std::size_t least_together = 4;
 
-/// A ray meets many boxes of more meshes, and one by one it leaves out those behind its first hit.
+/// Largest number of meshes for tracing rays together: with more, a ray traced alone skips the
+/// meshes behind its first hit.
 constexpr std::size_t most_meshes = 2;
 
-/// True if rays pass through meshes together.
+/// True if rays are traced at meshes together.
 bool go_together(std::size_t rays, std::size_t meshes) {
   return rays >= least_together && meshes > 0 && meshes <= most_meshes;
 }
 
-/// A ray and a mesh whose box it meets.
+/// A ray and a mesh whose box it hits.
 struct RayAtMesh {
   std::uint32_t mesh, ray;
 };
 
-/// Meshes whose boxes rays meet, in rounds: each ray's next one, sorted by mesh.
+/// Meshes whose boxes rays hit, in rounds: the next mesh of each ray, sorted by mesh.
 class Rounds {
  public:
   Rounds(const Bvh& boxes, std::size_t meshes, const RaySpan& rays, QueryCounts& counts)
       : begins_(rays.size() + 1), next_(rays.size()) {
     for (std::size_t i = 0; i < rays.size(); ++i) {
       begins_[i] = next_[i] = meshes_.size();
-      if (meshes == 1) {  // a single mesh's own walk begins with its box
+      if (meshes == 1) {  // the traversal of a single mesh tests its box first
         meshes_.push_back(0);
         continue;
       }
@@ -45,7 +46,8 @@ class Rounds {
     begins_.back() = meshes_.size();
   }
 
-  /// visit(mesh, rays) of each mesh in the next round, of rays that are open. False if it is empty.
+  /// Calls visit(mesh, rays) for each mesh in the next round, with the open rays. Returns false if
+  /// the round is empty.
   template <class IsOpen, class Visit>
   bool next(const IsOpen& is_open, const Visit& visit) {
     pairs_.clear();

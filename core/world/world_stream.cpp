@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays that go each their own way: the hierarchy finds pairs of ray and instance, float lanes sort
-// most of them out, and what is left is cast at.
+// Traces incoherent rays: the BVH finds pairs of ray and instance, float lanes discard most of
+// them, and the rest are cast.
 #include <algorithm>
 
 #include "core/world/pair_caster.h"
@@ -10,11 +10,11 @@
 namespace minkray {
 namespace {
 
-/// Pairs without a closed form wait until there are this many: more share packets, fewer are spared
-/// by what is met before them.
+/// Number of pairs without a closed form that are cast together: more share packets, but fewer are
+/// skipped because of nearer hits.
 constexpr std::size_t formless_at_once = 128;
 
-/// Casts come this many after their places are fetched.
+/// Number of pairs by which prefetching is ahead of casts.
 constexpr std::size_t fetched_ahead = 16;
 
 template <class Screen>
@@ -38,7 +38,7 @@ void World::answer_stream(const RaySpan& rays, std::size_t first, HitReceiver& t
                           QueryCounts& counts) const {
   std::vector<WorldHit> hits(rays.size(), WorldHit::miss());
   QueryCounts own;
-  std::vector<std::uint8_t> is_alone(rays.size());  ///< single rays decide
+  std::vector<std::uint8_t> is_alone(rays.size());  ///< 1: the ray is traced alone
   if (instances_.have_shapeless()) closest_shapeless(rays, hits, is_alone, own);
   if (bvh_.nodes.empty()) {
     for (std::size_t i = 0; i < rays.size(); ++i) to.take(first + i, hits[i], is_alone[i] != 0);
@@ -91,7 +91,7 @@ void World::answer_stream(const RaySpan& rays, std::size_t first, HitReceiver& t
       to.take(first + i, hits[i], false);
       continue;
     }
-    // A solver failed to converge, or what was sure to be met was not.
+    // A solver failed to converge, or a certain hit was not confirmed.
     QueryCounts alone;
     const WorldHit hit = closest_hit(rays[i], alone);
     to.take(first + i, hit, alone.exhausted > 0);

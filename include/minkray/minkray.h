@@ -110,7 +110,7 @@ inline void check(int code) {
 }
 }  // namespace detail
 
-/// "0.1.0": of the library that is running.
+/// Version of the loaded library, such as "0.1.0".
 inline const char* version() {
   return minkray_version();
 }
@@ -142,7 +142,7 @@ inline Pose identity() {
 inline Pose translation(const Vec3& by) {
   return {{{1, 0, 0, by.x}, {0, 1, 0, by.y}, {0, 0, 1, by.z}}};
 }
-/// A rotation, then a translation; the quaternion may have any length except zero.
+/// A rotation followed by a translation; the quaternion may have any length except zero.
 inline Pose pose(const Vec3& by, const Quaternion& q) {
   const double s = 2 / (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
   const double xx = s * q.x * q.x, yy = s * q.y * q.y, zz = s * q.z * q.z;
@@ -263,7 +263,7 @@ inline Shape with_shapes(Text kind, View<const Shape> shapes) {
 }
 }  // namespace detail
 
-/// Shapes around the origin, or of points.
+/// Shapes centred at the origin, or spanned by points.
 inline Shape point(const Vec3& position) {
   return make("point", {{"position", {&position.x, 3}}});
 }
@@ -317,6 +317,7 @@ inline Shape cut_cylinder(double radius, const CutPlanes& planes) {
                                {"lower_slope", planes.lower_slope},
                                {"upper_slope", planes.upper_slope}});
 }
+/// All points where the sum of |x_i / radii_i|^exponent is at most 1.
 inline Shape superellipsoid(const Vec3& radii, double exponent) {
   return make("superellipsoid", {{"radii", {&radii.x, 3}}, {"exponent", {&exponent, 1}}});
 }
@@ -355,13 +356,15 @@ inline Shape hull_of(View<const Shape> shapes) {
 inline Shape hull_of(std::initializer_list<Shape> shapes) {
   return hull_of(View<const Shape>(shapes.begin(), shapes.size()));
 }
-/// A shape under an invertible map; translated; scaled.
+/// Applies an invertible affine map to a shape.
 inline Shape transformed(const Shape& shape, const Pose& map) {
   return make("transform", {{"map", {&map.rows[0][0], 12}}, {"shape", {}, {&shape, 1}}});
 }
+/// Moves a shape by a vector.
 inline Shape translated(const Shape& shape, const Vec3& by) {
   return transformed(shape, translation(by));
 }
+/// Scales a shape about the origin: by a factor per axis, or by one factor.
 inline Shape scaled(const Shape& shape, const Vec3& by) {
   return transformed(shape, {{{by.x, 0, 0, 0}, {0, by.y, 0, 0}, {0, 0, by.z, 0}}});
 }
@@ -381,9 +384,9 @@ inline Shape read_shape(Text json, Text folder = {}) {
 }
 
 /// A mesh: triangles with shared vertices, counter-clockwise as seen from outside. Rays meet the
-/// mesh itself, not its hull. `triangles` is a contiguous range of vertex indices, or of
-/// anything that is three std::uint32_t, such as std::array<std::uint32_t, 3>. Scenes and rays
-/// accept a mesh like a shape; it is not convex, so it cannot be an operand of other shapes.
+/// mesh itself, not its hull. `triangles` is a contiguous range of vertex indices, or of any type
+/// that holds three std::uint32_t, such as std::array<std::uint32_t, 3>. Scenes and rays accept a
+/// mesh like a shape; it is not convex, so it cannot be an operand of other shapes.
 template <class Triangles>
 Shape mesh(View<const Vec3> vertices, const Triangles& triangles) {
   using Item = std::remove_cvref_t<decltype(*triangles.data())>;
@@ -405,8 +408,8 @@ inline Shape mesh(View<const Vec3> vertices, std::initializer_list<std::uint32_t
   return mesh(vertices, View<const std::uint32_t>(triangles.begin(), triangles.size()));
 }
 
-/// A terrain as a mesh: see minkray_shape_height_field. With a `bottom`, which must outlive the
-/// call only, it is a solid.
+/// A terrain as a mesh: see minkray_shape_height_field. With a `bottom` (which is only read during
+/// the call) the mesh is closed to a solid.
 inline Shape height_field(View<const double> heights, std::size_t rows, std::size_t columns,
                           double size_x, double size_y, const double* bottom = nullptr) {
   if (rows == 0 || heights.size() % rows != 0 || heights.size() / rows != columns)
@@ -487,13 +490,13 @@ int answer_jets(const Function& function, std::size_t count, const double (*n)[3
 }  // namespace detail
 
 /// A custom shape: `support(const Vec3& n)` returns the furthest point along the unit vector n.
-/// Several threads call it at once. An exception ends the query with an Error with its text, and so
-/// does a result that no convex shape can have.
+/// Several threads call it at once. An exception ends the query with an Error that has its text; a
+/// result that no convex shape can have also ends the query with an Error.
 template <class Support>
 Shape custom(Support support) {
   return detail::custom_within(std::move(support), nullptr, nullptr);
 }
-/// Makes a shape of a function that computes many points per call: `support(View<const Vec3>
+/// Makes a shape from a function that computes many points per call: `support(View<const Vec3>
 /// directions, View<Vec3> points)`. With `gathered`, casts of many rays collect up to that many
 /// directions per call, which pays off if a call is expensive.
 template <class Support>
@@ -512,13 +515,13 @@ Shape custom_batched(Support support, std::size_t gathered = 0) {
   detail::check(minkray_shape_custom_gathered(&given, gathered, &made));
   return Shape(made);
 }
-/// A support point and its derivative by the direction, a symmetric matrix.
+/// A support point and its derivative with respect to the direction, a symmetric matrix.
 struct SupportJet {
   Vec3 point;
-  double derivative[3][3];  ///< of the point by a direction of length 1
+  double derivative[3][3];  ///< of `point`, for a direction of length 1
 };
-/// Makes a smooth shape of a function with its curvature, `jet(const Vec3& n)` returning a
-/// SupportJet: casts take a fraction of the support points. Wrong derivatives cost time only.
+/// Makes a smooth shape from `jet(const Vec3& n)`, which returns a SupportJet: casts need fewer
+/// support points. Wrong derivatives only cost time.
 template <class Function>
 Shape custom_with_jets(Function jet) {
   minkray_support given = {};
@@ -536,7 +539,8 @@ Shape custom_with_jets(Function jet) {
       &made));
   return Shape(made);
 }
-/// The corners of a box that contains the shape may be given: results outside of it are reported.
+/// Makes a custom shape within the box from `lower` to `upper`; a support point outside of the box
+/// is an Error.
 template <class Support>
 Shape custom(Support support, const Vec3& lower, const Vec3& upper) {
   return detail::custom_within(std::move(support), &lower.x, &upper.x);
@@ -553,7 +557,7 @@ enum Status : std::int32_t {
 };
 
 /// The points origin + t direction, 0 <= t <= t_max; a direction of zero is an Error. As in
-/// minkray_ray, a t_max of 0 is no limit.
+/// minkray_ray, t_max = 0 means unlimited.
 struct Ray {
   Vec3 origin, direction;
   double t_max = std::numeric_limits<double>::infinity();
@@ -607,8 +611,8 @@ inline void check_sizes(const char* function, const char* argument, std::size_t 
 
 using Proof = minkray_proof;
 
-/// Writes a lidar's rays, as far as there is room: "spinning:32x1800", "VLP-16", or a file. Returns
-/// their number.
+/// Writes at most rays.size() rays of a lidar: "spinning:32x1800", "VLP-16", or a file. Returns the
+/// number of all its rays.
 inline std::size_t lidar(Text pattern, const Pose& pose, View<Ray> rays = {}) {
   std::size_t needed = 0;
   detail::check(minkray_lidar_rays(pattern.c_str(), detail::plain(&pose),
@@ -617,7 +621,7 @@ inline std::size_t lidar(Text pattern, const Pose& pose, View<Ray> rays = {}) {
   return needed;
 }
 
-/// Writes a calibrated camera's rays, given as JSON text; else as for a lidar.
+/// Writes the rays of a calibrated camera that is given as JSON text; otherwise as lidar().
 inline std::size_t camera(Text camera, const Pose& pose, View<Ray> rays = {}) {
   std::size_t needed = 0;
   detail::check(minkray_camera_rays(camera.c_str(), detail::plain(&pose),
@@ -700,7 +704,7 @@ struct ObjectPair {
   std::uint32_t a = 0, b = 0;
 };
 
-/// Shapes with poses. Any number of threads may query one. Changing a scene during a query, or
+/// Shapes with poses. Any number of threads may query a scene. Changing a scene during a query, or
 /// querying it during a change, is an Error.
 class Scene {
  public:
@@ -716,7 +720,8 @@ class Scene {
       detail::check(minkray_scene_joint(scene_, group_, i, &name, nullptr));
       return name;
     }
-    /// Writes a joint's value, as far as there is room. Returns how many numbers it has.
+    /// Writes at most values.size() numbers of a joint's value. Returns how many numbers the value
+    /// has.
     std::size_t value(std::uint32_t i, View<double> values) const {
       std::size_t count = 0;
       detail::check(minkray_scene_joint(scene_, group_, i, nullptr, &count));
@@ -887,8 +892,9 @@ class Scene {
   }
 
   /// Verifies a robot's motion along a path of joint values: free at all times, or a pair that
-  /// collides. With rates, as many numbers, joints move as cubics, with accelerations as quintics.
-  /// `proof` names a file for minkray-check; see minkray_scene_verify.
+  /// collides. `rates` (as many numbers as `path`) makes joints move as cubics; with
+  /// `accelerations` as well, as quintics. `proof` names a file for minkray-check; see
+  /// minkray_scene_verify.
   Verdict verify(const Group& robot, View<const double> path, std::size_t rows,
                  View<const double> rates = {}, double margin = 0,
                  View<const double> accelerations = {}, Text proof = {}) const {
@@ -918,11 +924,11 @@ class Scene {
 
   // ---- pairs: see minkray/pairs.h ----
 
-  /// All pairs of objects that are no further apart than `within`, in the order of their numbers.
-  /// Skips pairs excluded by masks or `allow`, and links that a joint connects.
+  /// All pairs of objects not proven to be further apart than `within`. Sorted by their numbers;
+  /// skips pairs excluded by masks or `allow`, and links that a joint connects.
   ScenePairs distances(double within = 0) const;
   ScenePairs distances(const NearOptions& options) const;
-  /// Exactly those pairs, in their order, regardless of masks and allowed pairs.
+  /// Computes exactly the given pairs, in their order, even if masks or `allow` exclude them.
   ScenePairs distances(View<const ObjectPair> pairs) const;
   ScenePairs distances(View<const ObjectPair> pairs, const NearOptions& options) const;
   /// The k objects nearest to each point: k results per point, the nearest first.
@@ -938,14 +944,15 @@ class Scene {
                              double t_max) const;
   /// Contact points of two objects.
   Manifold manifold(std::uint32_t object_a, std::uint32_t object_b) const;
-  /// Objects are a pair if each one's mask has a bit of the other's category.
+  /// Sets which pairs are tested: those where each object's mask has a bit of the other's category.
   void set_masks(std::uint32_t object, std::uint32_t category, std::uint32_t mask);
-  /// Allows two objects to touch, or not: allowed pairs are skipped.
+  /// Sets if two objects may touch: allowed pairs are skipped.
   void allow(std::uint32_t object_a, std::uint32_t object_b, bool is_allowed = true);
   /// Allows the pairs of the robot's links that an SRDF file lists.
   void allow_from_srdf(const Group& robot, Text file);
-  /// The least distance of each step of a robot's path, with its derivative by the joint values at
-  /// its row: as many numbers per step as a row has. See minkray_scene_clearance_derivatives.
+  /// The least distance of each step of a robot's path, with its derivative with respect to the
+  /// joint values there: as many numbers per step as a row has. See
+  /// minkray_scene_clearance_derivatives.
   void clearance_derivatives(const Group& robot, View<const double> path, std::size_t rows,
                              View<Clearance> steps, View<double> jac,
                              View<std::uint8_t> is_ridge = {}, View<double> jac_error = {}) const;
@@ -974,7 +981,7 @@ enum ImpactStatus : std::int32_t {
   impact = MINKRAY_IMPACT,
   no_impact = MINKRAY_NO_IMPACT,  ///< proven
   begins_inside = MINKRAY_BEGINS_INSIDE,
-  impact_undecided = MINKRAY_IMPACT_UNDECIDED  ///< none before t_lo; later impact unknown
+  impact_undecided = MINKRAY_IMPACT_UNDECIDED  ///< no impact before t_lo; not known after it
 };
 
 /// Distance of two shapes; see minkray_distance.
@@ -986,8 +993,8 @@ struct Distance {
 static_assert(sizeof(Distance) == sizeof(minkray_distance) &&
               offsetof(Distance, status) == offsetof(minkray_distance, status));
 
-/// Motion of a shape: the origin of its frame by `velocity`, and about that by `turn`, a rotation
-/// vector in the world, radians per unit of time.
+/// Motion of a shape: `velocity` moves the origin of its frame; `turn` is a rotation vector about
+/// that origin (world axes, radians per unit of time).
 struct Twist {
   Vec3 velocity, turn;
 };
@@ -1003,7 +1010,8 @@ struct Impact {
 static_assert(sizeof(Impact) == sizeof(minkray_impact) &&
               offsetof(Impact, status) == offsetof(minkray_impact, status));
 
-/// Signed distance (negative: penetration depth), with proven bounds lower <= value <= upper.
+/// Signed distance of two shapes (negative: penetration depth). The bounds are proven: lower <=
+/// value <= upper.
 inline Distance signed_distance(const Shape& a, const Pose& pose_a, const Shape& b,
                                 const Pose& pose_b, double tolerance = 0) {
   const minkray_distance_options options = {sizeof options, tolerance, 0, 0, 0};

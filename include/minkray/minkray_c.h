@@ -49,7 +49,7 @@ typedef enum minkray_code {
   MINKRAY_DEFECT = 6   /* an error of Minkray's own: please report it */
 } minkray_code;
 
-/* "0.1.0", of the library that is running. */
+/* Version of the loaded library, such as "0.1.0". */
 MINKRAY_API const char* minkray_version(void);
 
 /* Message of this thread's last failed call, one mistake per line. Valid until the next call. */
@@ -78,8 +78,8 @@ typedef struct minkray_parameter {
   size_t shape_count;
 } minkray_parameter;
 
-/* Makes a shape of any kind in scene files, by the same names: `minkray info --shapes` lists kinds
- * and parameters. The operands may be released afterwards. */
+/* Makes a shape of any kind by its name in scene files: `minkray info --shapes` lists kinds and
+ * parameters. The operands may be released afterwards. */
 MINKRAY_API int minkray_shape_make(const char* kind, const minkray_parameter* parameters,
                                    size_t count, minkray_shape* shape);
 
@@ -89,15 +89,15 @@ MINKRAY_API int minkray_shape_read(const char* json, const char* folder, minkray
 
 /* A custom shape: points[i] is its point furthest along directions[i], which has length 1. Equal
  * directions must get equal points. Several threads call it at once. Queries of the shape itself,
- * or of shapes made of it, return MINKRAY_WRONG_USE from within it. Returns 0, or anything else if
- * it failed: see minkray_support_failed. */
+ * or of shapes made of it, return MINKRAY_WRONG_USE from within it. Returns 0, or nonzero if it
+ * failed: see minkray_support_failed. */
 typedef int (*minkray_support_function)(void* user, size_t count, const double (*directions)[3],
                                         double (*points)[3]);
 
 typedef struct minkray_support {
   minkray_support_function function;
   void* user;
-  void (*release)(void* user); /* when the last shape made of it is gone; may be NULL */
+  void (*release)(void* user); /* called when the last shape made of it is gone; may be NULL */
   const double* lower;         /* corners of a box that holds the shape; both may be NULL */
   const double* upper;
 } minkray_support;
@@ -111,11 +111,11 @@ MINKRAY_API int minkray_shape_mesh(const double (*vertices)[3], size_t vertex_co
                                    const uint32_t (*triangles)[3], size_t triangle_count,
                                    minkray_shape* shape);
 
-/* A terrain as a mesh: heights over a grid of `rows` rows along x, the one of the least y first,
- * and `columns` columns, its middle above the origin, `size_x` and `size_y` from border to border.
- * Its cells are cut from their least corner to their greatest one; the triangles of the cell in row
- * r and column c are 2 (r (columns - 1) + c) and the next one. With a `bottom` walls go down to
- * that z and close it to a solid; NULL: it is open. The heights are copied. */
+/* A terrain as a mesh: heights over a grid centred at the origin, `size_x` by `size_y` from border
+ * to border. Each of the `rows` rows runs along x and has `columns` heights; the row with the least
+ * y is first. Each cell is cut along the diagonal from its corner of least x and y; the triangles
+ * of the cell in row r and column c are 2 (r (columns - 1) + c) and the next one. With a `bottom`,
+ * walls down to that z close the mesh to a solid; NULL: open. The heights are copied. */
 MINKRAY_API int minkray_shape_height_field(const double* heights, size_t rows, size_t columns,
                                            double size_x, double size_y, const double* bottom,
                                            minkray_shape* shape);
@@ -123,8 +123,8 @@ MINKRAY_API int minkray_shape_height_field(const double* heights, size_t rows, s
 /* Properties of a mesh. Vertices at the same position count as one, except in `vertices`. */
 typedef struct minkray_mesh_info {
   size_t vertices, triangles;
-  size_t open_edges;   /* edges without as many triangles on one side as on the other; 0: closed */
-  size_t without_area; /* triangles that no ray hits */
+  size_t open_edges;   /* edges not used equally often in both directions; 0: closed */
+  size_t without_area; /* triangles of zero area, which no ray hits */
   size_t repeated;     /* triangles with the same vertices as another */
 } minkray_mesh_info;
 /* Counts a mesh's vertices, triangles and defects. */
@@ -134,36 +134,36 @@ MINKRAY_API int minkray_shape_mesh_info(minkray_shape shape, minkray_mesh_info* 
  * outside of support functions. */
 MINKRAY_API void minkray_support_failed(const char* reason);
 
-/* Makes a shape of a support function. The function is called for some hundred directions at once,
- * and its results are compared with each other: MINKRAY_BAD_SUPPORT if no convex shape has them.
- * Later results are checked as well, and queries that get inconsistent ones return
- * MINKRAY_BAD_SUPPORT. `release` is called if this fails. */
+/* Makes a shape from a support function. The function is first called for some hundred directions;
+ * if no convex shape has these points, returns MINKRAY_BAD_SUPPORT. Later results are checked as
+ * well: a query that gets inconsistent ones returns MINKRAY_BAD_SUPPORT. If this call fails,
+ * `release` is called. */
 MINKRAY_API int minkray_shape_custom(const minkray_support* support, minkray_shape* shape);
 
-/* Makes a shape of a function that is expensive per call and cheap per direction, such as one in an
- * interpreter: casts of many rays collect up to `gathered` directions per call. The results are the
- * same; other queries call with at most 16. */
+/* Makes a shape from a function that is expensive per call and cheap per direction: casts of many
+ * rays collect up to `gathered` directions per call. Functions in an interpreter are an example.
+ * The results are the same; other queries call with at most 16. */
 MINKRAY_API int minkray_shape_custom_gathered(const minkray_support* support, size_t gathered,
                                               minkray_shape* shape);
 
-/* Derivatives of support points with respect to the direction: derivatives[i] is that of points[i],
- * for directions of length 1: a symmetric matrix, row by row, whose product with the direction is
- * zero. Radii of curvature are its other eigenvalues; at a vertex it is zero. */
+/* Derivatives of support points with respect to directions of length 1: derivatives[i], that of
+ * points[i], is a symmetric matrix, row by row. Its product with the direction is zero, its other
+ * eigenvalues are the radii of curvature; at a vertex the matrix is zero. */
 typedef int (*minkray_jet_function)(void* user, size_t count, const double (*directions)[3],
                                     double (*points)[3], double (*derivatives)[9]);
 
-/* Makes a smooth shape with known curvature, which saves most of the support points of a
- * cast. `jets` gets the same `user`, and must return the same points. Derivatives only guide casts,
- * and are not trusted: wrong ones cost time. */
+/* Makes a smooth shape with known curvature, which saves most of the support points of a cast.
+ * `jets` gets the same `user`, and must return the same points. Derivatives only guide casts and
+ * are not trusted: wrong ones only cost time. */
 MINKRAY_API int minkray_shape_custom_with_jets(const minkray_support* support,
                                                minkray_jet_function jets, minkray_shape* shape);
 
-/* Adds an owner; a release removes one. */
+/* Reference count: retain adds an owner, release removes one. */
 MINKRAY_API int minkray_shape_retain(minkray_shape shape);
 MINKRAY_API int minkray_shape_release(minkray_shape shape);
 
 /* Writes the JSON text from which minkray_shape_read makes the same shape: at most `size` bytes,
- * the last of them 0, and to `needed` (if not NULL) the number of bytes required. Custom shapes
+ * including the final 0, and to `needed` (if not NULL) the number of bytes required. Custom shapes
  * cannot be written. */
 MINKRAY_API int minkray_shape_write(minkray_shape shape, char* text, size_t size, size_t* needed);
 
@@ -202,28 +202,27 @@ MINKRAY_API int minkray_scene_add_half_space(minkray_scene scene, const double n
 
 typedef struct minkray_file_options {
   size_t size;                     /* sizeof(minkray_file_options) */
-  const minkray_pose* pose;        /* of all that the file holds, after its own; or NULL, as it
-                                      must be for one with particles */
+  const minkray_pose* pose;        /* applied to all objects of the file, after their own; or NULL.
+                                    * Must be NULL for files with particles */
   const char* geometry;            /* of robots: "visual" (or NULL), "collision" or "all" */
   const char* keyframe;            /* or NULL */
   const char* const* package_dirs; /* search path for package:// and model:// */
   size_t package_dir_count;
   int skip_missing_meshes;
-  const char* meshes; /* of robots: "exact" keeps their triangles, "hull" takes the convex hulls of
-                       * their vertices; NULL: exact, but hull for contact in MJCF. Read only if
-                       * `size` covers it */
+  const char* meshes; /* of robots: "exact" (triangles) or "hull" (convex hulls of their vertices);
+                       * NULL: exact, but hull for contact in MJCF. Read only if `size` covers it */
 } minkray_file_options;
 
-/* Adds all objects of a scene file of Minkray's (.json) or of a robot's description (URDF, MJCF,
- * SDF): a group of objects with consecutive numbers. Options may be NULL. */
+/* Adds all objects of a scene file (.json) or of a robot's file (URDF, MJCF, SDF, glTF): a group of
+ * objects with consecutive numbers. Options may be NULL. */
 MINKRAY_API int minkray_scene_add_file(minkray_scene scene, const char* file,
                                        const minkray_file_options* options, uint32_t* group);
 
-/* Moves an object. Setting a joint moves a robot's object again. */
+/* Moves an object. An object of a robot moves again when a joint is set. */
 MINKRAY_API int minkray_scene_set_pose(minkray_scene scene, uint32_t object,
                                        const minkray_pose* pose);
 
-/* Moves all objects of a file. One with particles cannot be moved: MINKRAY_WRONG_USE. */
+/* Moves all objects of a file. A file with particles cannot be moved: MINKRAY_WRONG_USE. */
 MINKRAY_API int minkray_scene_set_group_pose(minkray_scene scene, uint32_t group,
                                              const minkray_pose* pose);
 
@@ -261,7 +260,7 @@ MINKRAY_API int minkray_scene_joint_value(minkray_scene scene, uint32_t group, u
 /* ---- rays ------------------------------------------------------------------------------------ */
 
 /* The points origin + t direction, 0 <= t <= t_max. The direction may have any length; zero is
- * MINKRAY_WRONG_USE. A t_max of 0 (a zeroed struct) or infinity is no limit. */
+ * MINKRAY_WRONG_USE. A t_max of 0 (a zeroed struct) or infinity means unlimited. */
 typedef struct minkray_ray {
   double origin[3];
   double direction[3];
@@ -276,7 +275,7 @@ typedef enum minkray_status {
 } minkray_status;
 
 typedef struct minkray_hit {
-  double t;    /* ray parameter, in lengths of the direction; infinite for a miss */
+  double t;    /* ray parameter: the point is origin + t direction; infinite for a miss */
   double t_lo; /* proven bounds of t */
   double t_hi;
   double t_base; /* t = t_base + t_offset; the two have more digits than t */
@@ -306,14 +305,14 @@ typedef struct minkray_options {
 MINKRAY_API int minkray_scene_cast(minkray_scene scene, const minkray_ray* rays, size_t count,
                                    minkray_hit* hits, const minkray_options* options);
 
-/* Rays and results as arrays: strides are in bytes from one ray to the next. */
+/* Rays as arrays: strides are in bytes from one ray to the next. */
 typedef struct minkray_ray_arrays {
   size_t size; /* sizeof(minkray_ray_arrays) */
   const double* origins;
   ptrdiff_t origin_stride;
   const double* directions;
   ptrdiff_t direction_stride;
-  const double* t_max; /* NULL: no limit. A 0 in the array ends its ray at the origin */
+  const double* t_max; /* NULL: unlimited. A 0 in the array ends its ray at the origin */
   ptrdiff_t t_max_stride;
 } minkray_ray_arrays;
 
@@ -332,7 +331,7 @@ typedef struct minkray_hit_arrays {
   int32_t* parts; /* read only if `size` covers it */
 } minkray_hit_arrays;
 
-/* Casts rays in arrays. */
+/* Casts rays given as arrays. */
 MINKRAY_API int minkray_scene_cast_arrays(minkray_scene scene, const minkray_ray_arrays* rays,
                                           size_t count, const minkray_hit_arrays* hits,
                                           const minkray_options* options);
@@ -343,7 +342,7 @@ MINKRAY_API int minkray_scene_occluded(minkray_scene scene, const minkray_ray_ar
                                        size_t count, uint8_t* blocked,
                                        const minkray_options* options);
 
-/* Occlusion of rays in structs. */
+/* Occlusion of rays given as structs. */
 MINKRAY_API int minkray_scene_occluded_rays(minkray_scene scene, const minkray_ray* rays,
                                             size_t count, uint8_t* blocked,
                                             const minkray_options* options);
@@ -382,12 +381,12 @@ MINKRAY_API int minkray_scene_prove(minkray_scene scene, const minkray_ray* rays
 /* ---- sensors --------------------------------------------------------------------------------- */
 
 /* A lidar's rays. `pattern` is "spinning:CHANNELSxSTEPS[:LOWEST,HIGHEST[:FROM,TO]]" (elevations,
- * default -15,15, and azimuths in degrees): row by row from above, clockwise from behind unless
- * azimuths are given. Or a lidar's name ("VLP-16", "VLP-32C", "HDL-64E", "OS1-64", "Mid-360"). Or a
- * file: .csv (Livox), .json of elevations (also Ouster's), .mat3x4f. In the sensor's frame x is
- * ahead and z is the axis; `pose`, of the sensor in the world, may be NULL. Directions have length
- * 1, so that t is the distance. Writes at most `size` rays, and their number to `needed` (if not
- * NULL). */
+ * default -15,15, and azimuths in degrees): row by row, the highest elevation first, clockwise from
+ * behind unless azimuths are given. Or a lidar's name ("VLP-16", "VLP-32C", "HDL-64E", "OS1-64",
+ * "Mid-360"). Or a file: .csv (Livox), .json of elevations (also Ouster's), .mat3x4f. In the
+ * sensor's frame x is ahead and z is the axis; `pose`, of the sensor in the world, may be NULL.
+ * Directions have length 1, so that t is the distance. Writes at most `size` rays, and their number
+ * to `needed` (if not NULL). */
 MINKRAY_API int minkray_lidar_rays(const char* pattern, const minkray_pose* pose, minkray_ray* rays,
                                    size_t size, size_t* needed);
 
@@ -395,7 +394,7 @@ MINKRAY_API int minkray_lidar_rays(const char* pattern, const minkray_pose* pose
  * cy, width and height in pixels, and optionally "model" ("pinhole" or "fisheye"), k1 to k6 (k4),
  * p1 and p2, all as in OpenCV, with the centre of the first pixel at (0, 0). Directions have z = 1
  * in the camera's frame (t is the depth), for fisheyes length 1, and are NaN where the distortion
- * has no inverse. The rest is as for lidars. */
+ * has no inverse. Pose, size and `needed` are as for lidars. */
 MINKRAY_API int minkray_camera_rays(const char* camera, const minkray_pose* pose, minkray_ray* rays,
                                     size_t size, size_t* needed);
 
@@ -404,8 +403,8 @@ MINKRAY_API int minkray_camera_rays(const char* camera, const minkray_pose* pose
 typedef struct minkray_picture_options {
   size_t size; /* sizeof(minkray_picture_options) */
   /* The keys "camera", "lights" and "background" of scene files, in an object, as text; keys that
-   * are present replace those of the scene's files. May be NULL. Without a camera everything is
-   * framed; without lights there are a sun and a sky. */
+   * are present replace those of the scene's files. May be NULL. Without a camera the picture shows
+   * everything; without lights there are a sun and a sky. */
   const char* view;
   uint32_t width; /* in pixels; 0: the camera's */
   uint32_t height;
@@ -424,7 +423,8 @@ typedef struct minkray_channel {
   size_t count;     /* of values: width * height * numbers per pixel */
 } minkray_channel;
 
-/* Count of a channel's numbers per pixel, and if they are integers; both may be NULL. */
+/* Returns the count of a channel's numbers per pixel, and if they are integers; both pointers may
+ * be NULL. */
 MINKRAY_API int minkray_picture_channel(const char* name, uint32_t* numbers, int32_t* is_integer);
 
 /* Size of a picture. Options may be NULL. */
@@ -448,10 +448,10 @@ typedef enum minkray_distance_status {
 } minkray_distance_status;
 
 typedef struct minkray_distance {
-  double value; /* between lower and upper; of an overlap minus the depth */
+  double value; /* between lower and upper; for an overlap, minus the depth */
   double lower;
   double upper;
-  double point_a[3]; /* point_b - point_a = value normal, to rounding or a contact's 3e-6 sizes */
+  double point_a[3]; /* point_b - point_a = value normal, to rounding; in contact to 3e-6 sizes */
   double point_b[3];
   double normal[3]; /* unit vector from a to b */
   int32_t status;   /* a minkray_distance_status */
@@ -461,7 +461,7 @@ typedef struct minkray_distance {
 typedef struct minkray_distance_options {
   size_t size;       /* sizeof(minkray_distance_options) */
   double tolerance;  /* largest gap of the bounds, relative to the shapes' sizes; 0: 1e-10 */
-  double at_most;    /* beyond this distance a lower bound is enough; 0: none */
+  double at_most;    /* beyond this distance a lower bound is enough; 0: unlimited */
   int32_t only_sign; /* 1: only decide if they overlap */
   int32_t reserved;
 } minkray_distance_options;
@@ -473,9 +473,9 @@ MINKRAY_API int minkray_signed_distance(minkray_shape a, const minkray_pose* pos
                                         const minkray_distance_options* options,
                                         minkray_distance* distance);
 
-/* Motion of a shape: its frame's origin, which is the pose's translation, by `velocity`; about that
- * point by `turn`, a rotation vector in the world, radians per unit of time. `minkray cast` turns
- * shapes about the same point, unless a query names another. */
+/* Motion of a shape: `velocity` moves its frame's origin, which is the pose's translation; `turn`
+ * is a rotation vector about that point (world axes, radians per unit of time). `minkray cast`
+ * turns shapes about the same point, unless a query names another. */
 typedef struct minkray_twist {
   double velocity[3];
   double turn[3];
@@ -485,7 +485,7 @@ typedef enum minkray_impact_status {
   MINKRAY_IMPACT = 0,
   MINKRAY_NO_IMPACT = 1, /* proven */
   MINKRAY_BEGINS_INSIDE = 2,
-  MINKRAY_IMPACT_UNDECIDED = 3 /* no impact before t_lo; later impact unknown */
+  MINKRAY_IMPACT_UNDECIDED = 3 /* no impact before t_lo; not known after it */
 } minkray_impact_status;
 
 typedef struct minkray_impact {
@@ -499,7 +499,8 @@ typedef struct minkray_impact {
   int32_t steps;
 } minkray_impact;
 
-/* The first contact at times from 0 to t_max, which is finite. Twists may be NULL: at rest. */
+/* Finds the first contact at times from 0 to t_max, which must be finite. Twists may be NULL: at
+ * rest. */
 MINKRAY_API int minkray_time_of_impact(minkray_shape a, const minkray_pose* pose_a,
                                        const minkray_twist* twist_a, minkray_shape b,
                                        const minkray_pose* pose_b, const minkray_twist* twist_b,
@@ -518,7 +519,7 @@ typedef struct minkray_clearance_options {
 } minkray_clearance_options;
 
 /* The least signed distance between the robot and the objects around it, and between its links that
- * no joint connects, along the whole path and not at some samples. */
+ * no joint connects, along the whole path, not only at samples. */
 typedef struct minkray_clearance {
   double lower; /* proven lower bound; infinite without other objects */
   double upper; /* reached at `row` */
@@ -533,12 +534,12 @@ typedef struct minkray_clearance {
 } minkray_clearance;
 
 /* Clearance of a robot along a path of `rows` rows of `numbers` joint values each, in the order of
- * minkray_scene_joint, linear between rows. `steps` (or NULL) has one result per pair of
- * consecutive rows, or one for a single row; `least` (or NULL) is the least of all. Pairs excluded
- * by minkray_scene_allow or masks are skipped. The shapes are those that the file was added with:
- * see `geometry` of minkray_file_options. With more than 1,000,000 objects and particles, or
- * 10,000,000 pairs, returns MINKRAY_BAD_INPUT. The scene must be committed; the current values of
- * the robot's joints do not matter. */
+ * minkray_scene_joint, linear between rows. `steps` (or NULL) receives one result per pair of
+ * consecutive rows, or one for a single row; `least` (or NULL) receives the least of all. Pairs
+ * excluded by minkray_scene_allow or masks are skipped. The shapes are those that the file was
+ * added with: see `geometry` of minkray_file_options. With more than 1,000,000 objects and
+ * particles, or 10,000,000 pairs, returns MINKRAY_BAD_INPUT. The scene must be committed; the
+ * current values of the robot's joints do not matter. */
 MINKRAY_API int minkray_scene_clearance(minkray_scene scene, uint32_t group, const double* path,
                                         size_t rows, size_t numbers,
                                         const minkray_clearance_options* options,
@@ -556,7 +557,7 @@ typedef struct minkray_verdict_options {
   int32_t only_obstacles; /* 1: obstacles only, no self-collision */
   int32_t threads;        /* 0: one per core */
   /* Read only if `size` covers them. */
-  const double* accelerations; /* or NULL; as `rates`, which they need: the second derivatives */
+  const double* accelerations; /* or NULL; second derivatives, as many as `rates`; need `rates` */
   const char* proof;           /* or NULL; file for a proof, in the frame of the robot's pose, that
                                 * minkray-check confirms */
 } minkray_verdict_options;
@@ -567,7 +568,7 @@ typedef struct minkray_verdict {
   double row;   /* position of `upper`: 2.25 is a quarter of the way from path[2] to path[3] */
   double begin; /* first interval in which the pair collides, or may collide */
   double end;
-  double point[3];   /* midpoint between the two, or inside both */
+  double point[3];   /* midpoint between the two objects, or a point inside both */
   uint32_t object_a; /* the pair; MINKRAY_NO_OBJECT if there is none */
   uint32_t object_b;
   int32_t status; /* MINKRAY_MOTION_... */
@@ -575,9 +576,9 @@ typedef struct minkray_verdict {
 } minkray_verdict;
 
 /* Verifies a robot's motion along a path as in minkray_scene_clearance. `rates` (or NULL) has as
- * many numbers, the derivatives of joint values per row: joints then move as cubics between rows,
- * with accelerations as quintics, except quaternions. Returns MINKRAY_BAD_INPUT for a proof that is
- * impossible; an undecided motion has none. */
+ * many numbers as `path`: derivatives of the joint values, per row. Joints other than quaternions
+ * then move as cubics between rows, with accelerations as quintics. Returns MINKRAY_BAD_INPUT if
+ * `proof` is set but a proof is impossible; an undecided motion has no proof. */
 MINKRAY_API int minkray_scene_verify(minkray_scene scene, uint32_t group, const double* path,
                                      const double* rates, size_t rows, size_t numbers,
                                      const minkray_verdict_options* options,

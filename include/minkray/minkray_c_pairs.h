@@ -1,8 +1,6 @@
-/* SPDX-License-Identifier: MIT
- * Many pairs of shapes at once, and the pairs of a scene: distances with their derivatives, points
- * of contact, times of impact. docs/c.md has examples. The rules of minkray_c.h for errors, threads
- * and units hold here, too.
- */
+/* SPDX-License-Identifier: MIT Many pairs of shapes at once, and the pairs of a scene: distances
+ * with their derivatives, contact points, times of impact. docs/c.md has examples. The rules of
+ * minkray_c.h for errors, threads and units hold here, too. */
 #ifndef MINKRAY_MINKRAY_C_PAIRS_H
 #define MINKRAY_MINKRAY_C_PAIRS_H
 
@@ -40,24 +38,24 @@ typedef struct minkray_bodies {
 } minkray_bodies;
 
 /* Warm start: the final state of a query on a pair, kept by the caller for the next query on the
- * same pair, which is faster if the two have moved little. Zeros: empty. Bounds hold for any
- * contents; the result's last digits depend on it. */
+ * same pair, which is faster if the two have moved little. All zeros: empty. Bounds hold for any
+ * contents; the result's last digits depend on them. */
 typedef struct minkray_pair_memory {
   uint64_t words[8];
 } minkray_pair_memory;
 
-/* NULL arrays are not filled. A pair's derivative is by a twist of a body at the time of the query:
- * by the velocity of its frame's origin (the pose's translation) along the world's axes, then by
- * its angular velocity about that point. `is_ridge` is 1 where the bounds do not exclude several
- * derivatives: for parallel faces, an edge on a face, a depth in two directions; the reported one
- * is one of them. Derivatives are NaN if the distance is unknown. If any is requested, distances
- * are computed to a tolerance of 1e-15, and the direction of a depth to rounding. `jac_error_a` and
- * `jac_error_b` bound the length of a derivative's error: by velocity, and by angular velocity.
- * Both are infinite on ridges, for meshes, for depths in more than one direction, and for turns
- * about points that may slide on a surface of unknown curvature. */
+/* NULL arrays are not filled. Derivatives are with respect to a twist of a body at the time of the
+ * query: the velocity of its frame's origin (the pose's translation) along the world's axes, then
+ * the angular velocity about that point. `is_ridge` is 1 if the bounds do not exclude other
+ * derivatives: for parallel faces, an edge on a face, a depth in two directions; the reported
+ * derivative is one of them. Derivatives are NaN if the distance is unknown. If any is requested,
+ * distances are computed to a tolerance of 1e-15, and the direction of a depth to rounding.
+ * `jac_error_a` and `jac_error_b` bound the length of a derivative's error, for velocity and for
+ * angular velocity. Both are infinite on ridges, for meshes, for depths in more than one direction,
+ * and for turns about points that may slide on a surface of unknown curvature. */
 typedef struct minkray_distance_arrays {
   size_t size;                 /* sizeof(minkray_distance_arrays) */
-  minkray_distance* distances; /* all of a pair in one struct */
+  minkray_distance* distances; /* all results of a pair in one struct */
   double* value;
   double* lower;
   double* upper;
@@ -73,7 +71,7 @@ typedef struct minkray_distance_arrays {
   double* jac_error_b;
 } minkray_distance_arrays;
 
-/* Signed distances of `count` pairs, bit-identical to minkray_signed_distance for any number of
+/* Signed distances of `count` pairs. Bit-identical to minkray_signed_distance for any number of
  * threads. `memories` has one per pair, or is NULL. Both options may be NULL. */
 MINKRAY_API int minkray_signed_distances(const minkray_bodies* a, const minkray_bodies* b,
                                          size_t count, const minkray_distance_options* options,
@@ -81,9 +79,9 @@ MINKRAY_API int minkray_signed_distances(const minkray_bodies* a, const minkray_
                                          const minkray_distance_arrays* distances,
                                          const minkray_options* how);
 
-/* NULL arrays are not filled. Derivatives of the first contact's time by a twist of each body's
- * pose at time 0: NaN without contact, zero if the two overlap at time 0. `is_ridge` is 1 where the
- * derivative may be ambiguous or undefined, as for a grazing contact. `jac_error_a` and
+/* NULL arrays are not filled. Derivatives of the first contact's time with respect to a twist of
+ * each body's pose at time 0: NaN without contact, zero if the two overlap at time 0. `is_ridge` is
+ * 1 where the derivative may be ambiguous or undefined, as for a grazing contact. `jac_error_a` and
  * `jac_error_b` bound the length of the error; infinite on ridges, for meshes, for two shapes
  * without a radius (neither sphere, capsule nor rounded), and if no overlap was proven. */
 typedef struct minkray_impact_arrays {
@@ -103,7 +101,7 @@ typedef struct minkray_impact_arrays {
   double* jac_error_b;
 } minkray_impact_arrays;
 
-/* Times of impact of `count` pairs. `t_max` has one number per pair, or one. */
+/* Times of impact of `count` pairs. `t_max` has one number per pair, or one for all. */
 MINKRAY_API int minkray_times_of_impact(const minkray_bodies* a, const minkray_bodies* b,
                                         size_t count, const double* t_max, size_t t_max_count,
                                         minkray_pair_memory* memories,
@@ -150,15 +148,15 @@ MINKRAY_API int minkray_manifolds(const minkray_bodies* a, const minkray_bodies*
 
 /* ---- the pairs of a scene -------------------------------------------------------------------- */
 
-/* Scenes must be committed before queries. Removed objects are in no result; particles are,
- * numbered as in a minkray_hit. */
+/* Scenes must be committed before queries. Results exclude removed objects and include particles,
+ * which are numbered as in a minkray_hit. */
 
 /* Sets which pairs are tested: those where each object's mask has a bit of the other's category. By
  * default categories are 1 and masks have all bits. Changes the scene; needs no commit. */
 MINKRAY_API int minkray_scene_set_masks(minkray_scene scene, uint32_t object, uint32_t category,
                                         uint32_t mask);
 
-/* Allows two objects to touch, or not: allowed pairs are not tested. Changes the scene. */
+/* Sets if two objects may touch: allowed pairs are not tested. Changes the scene. */
 MINKRAY_API int minkray_scene_allow(minkray_scene scene, uint32_t object_a, uint32_t object_b,
                                     int is_allowed);
 
@@ -168,13 +166,13 @@ MINKRAY_API int minkray_scene_allow(minkray_scene scene, uint32_t object_a, uint
 MINKRAY_API int minkray_scene_allow_from_srdf(minkray_scene scene, uint32_t group,
                                               const char* file);
 
-/* Two objects and their distance. `jac_a` and `jac_b` are by a twist of each about the origin of
- * its frame, and zero unless derivatives were requested; see minkray_distance_arrays. */
+/* Two objects and their distance. `jac_a` and `jac_b` are the derivatives with respect to a twist
+ * of each about the origin of its frame, zero unless requested; see minkray_distance_arrays. */
 typedef struct minkray_scene_pair {
   minkray_distance distance;
   double jac_a[6];
   double jac_b[6];
-  uint32_t object_a; /* less than object_b; MINKRAY_NO_OBJECT for a given shape */
+  uint32_t object_a; /* the lesser number; MINKRAY_NO_OBJECT for a given shape */
   uint32_t object_b; /* MINKRAY_NO_OBJECT if there is none: all numbers are infinite */
   int32_t is_ridge;
   int32_t reserved;
@@ -200,24 +198,25 @@ typedef struct minkray_near_options {
  * invalid after it returns. Returns 0, or nonzero to end the call with MINKRAY_STOPPED. */
 typedef int (*minkray_take_pairs)(void* user, const minkray_scene_pair* pairs, size_t count);
 
-/* All pairs of objects that are no further apart than `within`. Skips pairs that masks exclude or
- * that are allowed, pairs of half-spaces, and links of a robot that do not move relative to each
- * other or that a joint connects. With `pairs` (or NULL) exactly these `count` pairs are computed,
- * two numbers each, in their order, regardless of masks and allowed pairs. Options may be NULL:
- * within 0, no derivatives. Only the threads of `how` are used. */
+/* All pairs of objects not proven to be further apart than `within`. Skips pairs that masks exclude
+ * or that are allowed, pairs of half-spaces, and links of a robot that do not move relative to each
+ * other or that a joint connects. If `pairs` is not NULL, computes exactly these `count` pairs (two
+ * numbers each), in their order, even if masks exclude them or they are allowed. Options may be
+ * NULL: within 0, no derivatives. The only member of `how` that is used is `threads`. */
 MINKRAY_API int minkray_scene_distances(minkray_scene scene, const uint32_t* pairs, size_t count,
                                         const minkray_near_options* options,
                                         minkray_take_pairs take, void* user,
                                         const minkray_options* how);
 
 /* The k objects nearest to each of `count` points, the nearest first: k results per point, with
- * MINKRAY_NO_OBJECT in those beyond the number of objects. Points are the a of a pair. */
+ * MINKRAY_NO_OBJECT if there are fewer objects. In each pair, a is the point. */
 MINKRAY_API int minkray_scene_nearest(minkray_scene scene, const double (*points)[3], size_t count,
                                       size_t k, const minkray_near_options* options,
                                       minkray_scene_pair* nearest, const minkray_options* how);
 
-/* The object nearest to each of many given shapes, which are not part of the scene and are the a of
- * a pair. With `within` NULL or infinite there always is one, unless the scene is empty. */
+/* The object nearest to each of many given shapes. The shapes are not part of the scene; in each
+ * pair, a is the shape. There is always one, unless the scene is empty or `within` excludes all
+ * objects. Options may be NULL: within infinity. */
 MINKRAY_API int minkray_scene_distance_to(minkray_scene scene, const minkray_bodies* shapes,
                                           size_t count, const minkray_near_options* options,
                                           minkray_scene_pair* nearest, const minkray_options* how);
@@ -225,13 +224,13 @@ MINKRAY_API int minkray_scene_distance_to(minkray_scene scene, const minkray_bod
 /* First contact of a shape that moves through the scene. */
 typedef struct minkray_scene_impact {
   minkray_impact impact; /* no contact before t_lo; contact at t_hi */
-  double jac[6];         /* of the time, by a twist of the shape at time 0 */
+  double jac[6];         /* derivative of the time with respect to a twist at time 0 */
   uint32_t object;       /* MINKRAY_NO_OBJECT without contact */
   int32_t is_ridge;
 } minkray_scene_impact;
 
 /* Casts shapes through the scene, at times from 0 to t_max (one number, or one per shape). Options
- * may be NULL; only derivatives and the mask are used. */
+ * may be NULL; only `derivatives`, `mask` and `jac_error` are used. */
 MINKRAY_API int minkray_scene_time_of_impact(minkray_scene scene, const minkray_bodies* shapes,
                                              size_t count, const double* t_max, size_t t_max_count,
                                              const minkray_near_options* options,
@@ -244,13 +243,13 @@ MINKRAY_API int minkray_scene_manifold(minkray_scene scene, uint32_t object_a, u
 
 /* ---- derivatives of rays --------------------------------------------------------------------- */
 
-/* NULL arrays are not filled: six numbers per ray. Derivatives of a ray's t by its origin and its
- * direction, and by a twist of the hit object about the origin of its frame. Zero if the ray begins
- * inside, NaN for a miss. `is_ridge` is 1 where the derivative may be ambiguous: the ray passes
- * through an edge, grazes a shape, or hits two objects at once. `jac_error_ray` and
- * `jac_error_body` bound the length of the error: by origin and by direction, by velocity and by
- * angular velocity. Infinite on ridges, and where the surface's curvature is unknown: for shapes
- * known by their support mapping only, and for meshes unless the hits have `parts`. */
+/* Derivatives of a ray's t, six numbers each: with respect to its origin and its direction, and to
+ * a twist of the hit object about the origin of its frame. NULL arrays are not filled. Zero if the
+ * ray begins inside, NaN for a miss. `is_ridge` is 1 where the derivative may be ambiguous: the ray
+ * passes through an edge, grazes a shape, or hits two objects at once. `jac_error_ray` and
+ * `jac_error_body` bound the length of the error: for origin and for direction, for velocity and
+ * for angular velocity. Infinite on ridges, and where the surface's curvature is unknown: for
+ * shapes known by their support mapping only, and for meshes unless the hits have `parts`. */
 typedef struct minkray_ray_derivatives {
   size_t size; /* sizeof(minkray_ray_derivatives) */
   double* jac_ray;
@@ -269,13 +268,13 @@ MINKRAY_API int minkray_scene_ray_derivatives(minkray_scene scene, const minkray
 
 /* ---- derivatives of clearances --------------------------------------------------------------- */
 
-/* Clearances with their derivatives by the joints, else as minkray_scene_clearance. `jac` gets
- * `numbers` numbers per step: the derivative of the distance that `upper` bounds by the joint
- * values at `row`. Quaternions have length 1 between rows, and count as given at a row. Joints that
- * mimic others have zeros. All are zero without other objects. `is_ridge` is 1 where the derivative
- * may be ambiguous, or another pair is as near at `row`. Each of `steps`, `jac` and `is_ridge` may
- * be NULL. Bounds of the error (`jac_error` of the options) hold at the joint values at `row`, as
- * rounded; they are infinite on ridges and for meshes. */
+/* Clearances with their derivatives with respect to the joint values. Otherwise as
+ * minkray_scene_clearance. `jac` gets `numbers` numbers per step: the derivative of the distance at
+ * `row`, which `upper` bounds, with respect to the joint values at `row`. Between rows quaternions
+ * have length 1; at a row they are as given. Joints that mimic others have zeros; without other
+ * objects all numbers are zero. `is_ridge` is 1 if the derivative may be ambiguous, or another pair
+ * is equally near at `row`. Each of `steps`, `jac` and `is_ridge` may be NULL. `jac_error` of the
+ * options is for the joint values at `row` as rounded; infinite on ridges and for meshes. */
 MINKRAY_API int minkray_scene_clearance_derivatives(minkray_scene scene, uint32_t group,
                                                     const double* path, size_t rows, size_t numbers,
                                                     const minkray_clearance_options* options,

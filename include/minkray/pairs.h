@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Many pairs of shapes at once: distances with their derivatives, points of contact, times of
-// impact; and the pairs of a scene. Header-only over minkray_c_pairs.h, whose comments specify the
-// details; docs/cpp.md has examples.
+// Many pairs of shapes at once: distances with their derivatives, contact points, times of impact;
+// and the pairs of a scene. Header-only over minkray_c_pairs.h, whose comments specify the details;
+// docs/cpp.md has examples.
 #pragma once
 
 // Example:
@@ -19,16 +19,16 @@ inline namespace v0 {
 
 static_assert(sizeof(Shape) == sizeof(minkray_shape) && std::is_standard_layout_v<Shape>);
 
-/// One side of many pairs: one shape and pose per pair, or one for all. Default: identity poses, at
-/// rest. Poses are rigid.
+/// One side of many pairs: one shape, pose and twist per pair, or one for all pairs. Defaults:
+/// identity poses, at rest. Poses must be rigid.
 struct Bodies {
   View<const Shape> shapes = {};
   View<const Pose> poses = {};
   View<const Twist> twists = {};
 };
 
-/// Warm start: the final state of a query on a pair, for the next query on the same pair. A value;
-/// initially empty.
+/// Warm start: the final state of a query on a pair, for the next query on the same pair. A plain
+/// value; initially empty.
 struct PairMemory {
   std::uint64_t words[8] = {};
 };
@@ -50,8 +50,8 @@ struct DerivativeError {
   double velocity = 0, turn = 0;
 };
 
-/// Derivatives by a twist of each body: by the velocity of its origin, and by a turn about that.
-/// `is_ridge` is set where they may be ambiguous. Empty views are not filled.
+/// Derivatives with respect to a twist of each body: the velocity of its origin and the angular
+/// velocity about it. `is_ridge` is set where they may be ambiguous. Empty views are not filled.
 struct Derivatives {
   View<Twist> by_a = {}, by_b = {};
   View<std::uint8_t> is_ridge = {};
@@ -60,8 +60,8 @@ struct Derivatives {
 
 /// Options of queries on many pairs.
 struct PairOptions {
-  double tolerance = 0;            ///< gap of the bounds, relative to the sizes; 0: 1e-10
-  double at_most = 0;              ///< beyond this distance a lower bound is enough; 0: none
+  double tolerance = 0;            ///< largest gap of the bounds, relative to the sizes; 0: 1e-10
+  double at_most = 0;              ///< beyond this distance a lower bound is enough; 0: unlimited
   View<PairMemory> memories = {};  ///< one per pair, or none
   Derivatives derivatives = {};
   Options how = {};
@@ -83,7 +83,7 @@ inline minkray_bodies plain(const Bodies& bodies) {
 inline minkray_distance_options plain(const PairOptions& options) {
   return {sizeof(minkray_distance_options), options.tolerance, options.at_most, 0, 0};
 }
-/// Null without memories; throws unless there is one per pair.
+/// Returns null for no things; throws unless there is one per pair.
 template <class Plain, class Thing>
 Plain* of_pairs(const char* function, const char* argument, View<Thing> things, std::size_t pairs) {
   if (things.size() == 0) return nullptr;
@@ -107,8 +107,8 @@ void add_derivatives(const char* function, const Derivatives& to, std::size_t pa
 }
 }  // namespace detail
 
-/// Signed distances of as many pairs as `distances` has room for, bit-identical to
-/// signed_distance() for any number of threads.
+/// Signed distances of distances.size() pairs. Bit-identical to signed_distance() for any number of
+/// threads.
 inline void signed_distances(const Bodies& a, const Bodies& b, View<Distance> distances,
                              const PairOptions& options = {}) {
   constexpr const char* function = "minkray::signed_distances";
@@ -184,7 +184,8 @@ struct PairDerivativeError {
   DerivativeError a, b;
 };
 
-/// Pairs of a scene, which it owns. (Without std::vector, which is longer than all of minkray.h.)
+/// Owning list of a scene's pairs. (Not a std::vector, whose header is longer than all of
+/// minkray.h.)
 class ScenePairs {
  public:
   ScenePairs() = default;
@@ -233,7 +234,7 @@ class ScenePairs {
 /// First contact of a shape that moves through a scene.
 struct SceneImpact {
   Impact impact;   ///< no contact before t_lo; contact at t_hi
-  Twist by_shape;  ///< the time's derivative by a twist of the shape's pose at time 0
+  Twist by_shape;  ///< derivative of the time with respect to a twist of the pose at time 0
   std::uint32_t object = no_object;
   std::int32_t is_ridge = 0;
 };
@@ -243,9 +244,9 @@ static_assert(sizeof(SceneImpact) == sizeof(minkray_scene_impact) &&
 /// Options of queries on a scene's pairs.
 struct NearOptions {
   double within = std::numeric_limits<double>::infinity();  ///< pairs further apart are skipped
-  double tolerance = 0;               ///< gap of the bounds, relative to the sizes; 0: 1e-10
-  bool derivatives = false;           ///< add derivatives
-  std::uint32_t mask = 0;             ///< for given shapes and points: categories to test; 0: all
+  double tolerance = 0;      ///< largest gap of the bounds, relative to the sizes; 0: 1e-10
+  bool derivatives = false;  ///< add derivatives
+  std::uint32_t mask = 0;    ///< for given shapes and points: categories to test; 0: all
   View<DerivativeError> errors = {};  ///< of the derivatives of times of impact: one per shape
   bool derivative_errors = false;     ///< fill ScenePairs::errors()
   View<PairDerivativeError> pair_errors = {};  ///< for distance_to: one per shape

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Derivatives of ray casts by the rays and the bodies that they hit, with bounds of their errors.
-// Header-only over minkray_c_pairs.h, whose comments specify the details.
+// Derivatives of ray casts with respect to the rays and to the bodies that they hit, with bounds of
+// their errors. Header-only over minkray_c_pairs.h, whose comments specify the details.
 #pragma once
 
 // Example:
@@ -11,18 +11,18 @@
 namespace minkray {
 inline namespace v0 {
 
-/// Derivatives of a ray's t by its origin and its direction.
+/// Derivatives of a ray's t with respect to its origin and its direction.
 struct RayTwist {
   Vec3 origin, direction;
 };
 
-/// Derivatives of t by the rays, and by a twist of the objects that they meet; see
-/// minkray_ray_derivatives. As many as rays; those without room are omitted.
+/// Derivatives of t with respect to the rays, and to a twist of the objects that they hit; see
+/// minkray_ray_derivatives. One item per ray; empty views are not filled.
 struct RayDerivatives {
   View<RayTwist> by_ray = {};
   View<Twist> by_body = {};
   View<std::uint8_t> is_ridge = {};
-  View<DerivativeError> error_ray = {};  ///< `velocity` by the origin, `turn` by the direction
+  View<DerivativeError> error_ray = {};  ///< `velocity`: for the origin; `turn`: for the direction
   View<DerivativeError> error_body = {};
 };
 

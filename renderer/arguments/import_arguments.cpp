@@ -16,7 +16,7 @@ void add_other_files(const Verb& verb, ImportOptions& options) {
   // reported.
   verb.add_option("others", options.others,
                   "More files for the same scene\n"
-                  "Camera and lights are the first scene's; joint values set the first file")
+                  "Camera and lights: of the first scene file; joint values: of the first file")
       .reads_file();
 }
 
@@ -42,7 +42,7 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
                             : name == "components" ? MeshSplit::components
                                                    : MeshSplit::none;
           },
-          "How to split a mesh into hulls:\nnone: one body (default)\n"
+          "Split of a mesh into convex hulls:\nnone: not split (default)\n"
           "groups: one per named part of the file\ncomponents: one per connected part")
       .one_of({"none", "groups", "components"})
       .group(group);
@@ -51,7 +51,7 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
           [&options](const std::string& name) {
             options.meshes = name == "exact" ? MeshChoice::exact : MeshChoice::hull;
           },
-          "Mesh files of robots (default exact; hull with --split and for MJCF contact):\n"
+          "Robot meshes (default exact; hull with --split, or for contact in MJCF):\n"
           "exact: triangles\nhull: convex hulls")
       .one_of({"hull", "exact"})
       .group(group);
@@ -59,14 +59,14 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
       .takes("NAME")
       .group(group);
   verb.add_option("--joint", options.joints,
-                  "Joint value (rad or scene units; several: comma-separated); repeatable")
+                  "Joint value (rad or length; ball, free: comma-separated); repeatable")
       .takes("NAME=VALUE")
       .one_value_each()
       .group(group);
   if (rows)
     verb.add_option("--joints", options.joint_rows,
                     "Joint values: CSV (names, then values) or JSON rows with \"time\" (s)\n"
-                    "Several rows move the robot, at 24 fps if without times")
+                    "Several rows animate the robot; without times: 24 rows per second")
         .reads_file()
         .group(group);
   verb.add_option("--package-dir,--model-dir", options.package_dirs,

@@ -9,7 +9,7 @@ namespace minkray {
 
 inline void add_tolerance(const Verb& verb, double& tolerance) {
   verb.add_option("--tolerance", tolerance,
-                  "Gap between the bounds of a distance, relative to the shapes' sizes")
+                  "Largest gap between the bounds of a distance, relative to the shapes' sizes")
       .between(1e-14, 1.0)
       .show_default();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Derivative of a step's least distance by the joint values at its time.
+// Derivative of a step's least distance with respect to the joint values at its time.
 #pragma once
 
 #include <vector>

@@ -13,7 +13,8 @@
 
 namespace minkray {
 
-/// A derivative by the twist of a link's frame about its origin; -1: the world, which has none.
+/// Derivative with respect to a twist of a link's frame about its origin; -1: the world, which does
+/// not move.
 struct LinkDerivative {
   int link = -1;
   TwistDerivative by;

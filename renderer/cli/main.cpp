@@ -61,7 +61,7 @@ ExitCode run(int argc, char** argv) {
     return ExitCode::done;
   }
   parser.set_footer(
-      "Exit codes: 0 done, 1 a comparison or certificate failed, or verify: collides,\n"
+      "Exit codes: 0 done, 1 a comparison or certificate failed (verify: collides),\n"
       "2 wrong usage, 3 bad scene or input, 4 could not write, 6 verify: undecided.\n"
       "Results are on stdout, all else on stderr.");
   ExitCode exit_code = ExitCode::done;

@@ -58,7 +58,7 @@ std::string entry(const OptionDescription& option) {
 
 constexpr const char* exit_status =
     ".SH EXIT STATUS\n"
-    "0 done, 1 a comparison or certificate failed, or verify: collides, 2 wrong usage, 3 bad\n"
+    "0 done, 1 a comparison or certificate failed (verify: collides), 2 wrong usage, 3 bad\n"
     "scene or input, 4 could not write, 6 verify: undecided. Results are on standard output,\n"
     "everything else is on standard error.\n";
 

@@ -119,7 +119,7 @@ std::string command_meant(std::string_view typed, const std::vector<std::string>
 
 std::string option_meant(std::string_view typed, const std::vector<std::string>& options) {
   for (const Meaning& one : of_the_scene)
-    if (one.typed == typed) return "the scene file says it: " + std::string(one.name);
+    if (one.typed == typed) return "set it in the scene file: " + std::string(one.name);
   return meant(options_elsewhere, typed, options);
 }
 

@@ -129,7 +129,7 @@ void clearance(ClearanceVerbOptions& options, ExitCode& exit_code) {
   std::cout << json_of(found, bodies).dump() << '\n';
   if (options.at_least && !(found.closest.lower >= at_least)) {
     exit_code = ExitCode::comparison_failed;
-    std::cerr << "the clearance is not proven to be " << *options.at_least << "\n";
+    std::cerr << "the clearance is not proven to be at least " << *options.at_least << "\n";
   }
 }
 
@@ -152,7 +152,7 @@ void add_clearance(Parser& parser, ExitCode& exit_code) {
   verb.add_flag("--only-obstacles", options->only_obstacles,
                 "Check obstacles only, not self-collision");
   verb.add_option("--tolerance", options->clearance.tolerance,
-                  "Relative gap between the bounds of the clearance")
+                  "Largest gap between the bounds, relative to the clearance")
       .between(1e-9, 1.0)
       .show_default();
   verb.add_option("--at-least", options->at_least,

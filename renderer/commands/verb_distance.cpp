@@ -77,8 +77,7 @@ DistanceFile kind_of_file(const std::string& file) {
 
 void distance_of_shapes(const DistanceVerbOptions& options) {
   if (options.is_of_table())
-    throw WrongUsage(
-        "distance: of two shapes only --tolerance, --at-most and --only-sign are used");
+    throw WrongUsage("distance: for two shapes only --tolerance, --at-most and --only-sign apply");
   SignedDistanceQuery query{shape_in(options.files[0], options.command_files),
                             shape_in(options.files[1], options.command_files)};
   query.at_most = options.at_most;
@@ -262,7 +261,7 @@ void distance(const DistanceVerbOptions& options) {
   if (kinds == std::vector{DistanceFile::shape, DistanceFile::shape})
     return distance_of_shapes(options);
   if (options.at_most != no_limit || options.only_sign)
-    throw WrongUsage("--at-most and --only-sign are for two shapes; of a table there is --within");
+    throw WrongUsage("--at-most and --only-sign are for two shapes; for a table use --within");
   if (kinds == std::vector{DistanceFile::shape})
     throw WrongUsage("distance: must have a second file (" + printable(options.files[0], 100) +
                      " is a shape)");
@@ -285,8 +284,8 @@ void add_distance(Parser& parser, ExitCode&) {
   const auto options = std::make_shared<DistanceVerbOptions>();
   options->command_files = &verb.files();
   verb.add_option("files", options->files,
-                  "Two files with one shape each; or a robot or scene, and other files to measure "
-                  "against. " +
+                  "Two files with one shape each; or a robot or scene, then other files to measure "
+                  "against. Each file: " +
                       scene_argument())
       .required()
       .reads_file();
@@ -300,8 +299,9 @@ void add_distance(Parser& parser, ExitCode&) {
   verb.add_option("-o,--output", options->output, "A CSV file to write instead of the table")
       .writes_file();
   verb.add_option("--at-most", options->at_most,
-                  "Two shapes: beyond this distance, return a lower bound only");
-  verb.add_flag("--only-sign", options->only_sign, "Two shapes: only decide if they overlap");
+                  "Beyond this distance, return a lower bound only (two shapes only)");
+  verb.add_flag("--only-sign", options->only_sign,
+                "Only decide if the shapes overlap (two shapes only)");
   add_import_options(verb, options->import, false);
   verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")
       .between(0, 1024)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// minkray field: picture of the distance from a scene's objects over a plane.
+// minkray field: picture of the signed distance to a scene's nearest object, on a plane.
 #include <iostream>
 #include <memory>
 
@@ -96,7 +96,7 @@ void field(FieldVerbOptions& options) {
   std::cout << "least distance " << least << ", proven to " << widest << "; " << found.supports
             << " support points\n";
   if (unknown > 0)
-    std::cout << unknown << " pixels (grey) have objects beside them whose distance is unknown\n";
+    std::cout << unknown << " pixels (grey) are near objects whose distance is unknown\n";
 }
 
 }  // namespace
@@ -115,7 +115,7 @@ void add_field(Parser& parser, ExitCode&) {
       .takes("X,Y,Z")
       .show_default();
   verb.add_option("--extent", options->extent,
-                  "Width of the picture in scene units; default: shows everything")
+                  "Width of the picture in scene units; default: shows all objects")
       .between(0.0, 1e300);
   verb.add_option("--probe", options->probe,
                   "File of a shape to move over the plane, instead of a point")

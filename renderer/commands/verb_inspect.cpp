@@ -42,10 +42,10 @@ void add_inspect(Parser& parser, ExitCode& exit_code) {
       .between(std::size_t{0}, std::size_t{1000})
       .show_default();
   verb.add_option("--megabytes", options->megabytes,
-                  "Largest size of the page (MB); 0: 6, or more for large pictures")
+                  "Maximum page size (MB); 0: automatic (6, more for large pictures)")
       .between(0.0, 2000.0);
   verb.add_flag("--serve", options->serve,
-                "Serve the page at 127.0.0.1, with queries of any ray, until Ctrl-C")
+                "Serve the page at 127.0.0.1 until Ctrl-C; it can then query any ray")
       .excludes(output);
   verb.add_option("--port", options->port, "Port of --serve; 0: any free port")
       .between(0, 65535)

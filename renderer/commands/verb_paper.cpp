@@ -52,12 +52,12 @@ void paper(const PaperVerbOptions& options) {
     std::error_code error;
     std::filesystem::create_directories(options.out, error);
     if (!std::filesystem::is_directory(options.out, error))
-      throw CannotWrite("--out: must be a folder that is there or can be made (got " + options.out +
+      throw CannotWrite("--out: must be a folder that exists or can be made (got " + options.out +
                         ")");
   }
   std::cout
-      << "An iteration is one turn of the loop and one call of the support mapping, the last\n"
-         "one counted. Rays, shapes and motions are random with a fixed seed.\n";
+      << "An iteration is one pass of the loop, with one call of the support mapping; the last\n"
+         "pass counts. Rays, shapes and motions are random with a fixed seed.\n";
   for (const PaperClaim& claim : claims) {
     if (!options.only.empty() && claim.id != options.only) continue;
     const ClaimResult result = claim.run(options.claim);

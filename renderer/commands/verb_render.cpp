@@ -46,8 +46,7 @@ ExitCode run(RenderArguments& options) {
   std::optional<RayAudit> audit;
   if (options.certify && job.world.instances().move())
     throw WrongUsage(
-        "--certify: proves what stands still; here objects move while the shutter is "
-        "open");
+        "--certify: requires objects at rest (here objects move while the shutter is open)");
   if (options.certify) job.options.integrator.observer = &audit.emplace(job.scene, job.world);
 
   if (ranks.count() > 1) {

@@ -63,8 +63,7 @@ void read_options(ScanVerbOptions& options) {
     throw WrongUsage("scan: give one of --rays, --pattern and --pinhole");
   options.scan.seed = parse_seed(options.seed);
   if (!options.pose.empty()) {
-    const auto v = number_list(options.pose, "--pose", {3, 7},
-                               "x,y,z, and the quaternion qx,qy,qz,qw if wanted");
+    const auto v = number_list(options.pose, "--pose", {3, 7}, "x,y,z or x,y,z,qx,qy,qz,qw");
     options.scan.pose.translation = {v[0], v[1], v[2]};
     if (v.size() == 7) {
       if (v[3] == 0 && v[4] == 0 && v[5] == 0 && v[6] == 0)
@@ -74,8 +73,8 @@ void read_options(ScanVerbOptions& options) {
   }
   if (!options.noise.empty()) {
     const auto v = number_list(options.noise, "--noise", {1, 2, 3},
-                               "the deviation of ranges, of angles (radians), and what that of "
-                               "ranges grows by per length");
+                               "standard deviations of range, of angle (rad) and of range per "
+                               "unit distance");
     for (const double number : v)
       if (number < 0) throw WrongUsage("--noise: must be >= 0 (got " + options.noise + ")");
     options.scan.range_noise = v[0];
@@ -83,7 +82,7 @@ void read_options(ScanVerbOptions& options) {
     if (v.size() > 2) options.scan.range_noise_per_length = v[2];
   }
   if (!options.range.empty()) {
-    const auto v = number_list(options.range, "--range", {2}, "the least and the greatest range");
+    const auto v = number_list(options.range, "--range", {2}, "least and greatest range");
     if (v[0] < 0 || v[1] <= v[0])
       throw WrongUsage("--range: must be 0 <= MIN < MAX (got " + options.range + ")");
     options.scan.nearest = v[0];
@@ -102,8 +101,7 @@ void read_options(ScanVerbOptions& options) {
   }
 }
 
-/// Warns of rays that begin within a body: a sensor without a pose may be in one, where it sees
-/// nothing else.
+/// Warns of rays that begin inside a body, which may contain a sensor without a pose.
 void warn_of_inside(const Scan& scan, int returns) {
   std::size_t rays = 0, inside = 0;
   for (std::size_t first = 0; first < scan.echoes.size(); first += std::size_t(returns), ++rays)
@@ -123,7 +121,8 @@ void run(ScanVerbOptions& options) {
   for (const std::string& output : options.outputs) {
     const ScanFormat& format = scan_format_of(output);
     if (format.is_image && rays.width == 0)
-      throw WrongUsage("--output: rays that are no image's cannot become one (got " + output + ")");
+      throw WrongUsage("--output: rays without rows and columns make no image (got " + output +
+                       ")");
     if (format.ending == ".mcap" && echoes > double(most_mcap_points))
       throw WrongUsage("--output: " + output + " holds at most " +
                        std::to_string(most_mcap_points) + " echoes");
@@ -208,7 +207,7 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .group(heading)
       .takes("MIN,MAX");
   verb.add_option("--noise", options.noise,
-                  "Standard deviations: of ranges, of angles (rad); growth of the first per length")
+                  "Standard deviations: of range, of angle (rad), of range per unit distance")
       .group(heading)
       .takes("RANGE[,ANGLE[,PER_LENGTH]]");
   verb.add_option("--dropout", options.scan.dropout, "Probability that a ray returns nothing")
@@ -219,7 +218,7 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .takes("N")
       .show_default();
   verb.add_option("--returns", options.scan.returns,
-                  "Echoes per ray: successive bodies, or parts of a beam")
+                  "Echoes per ray: bodies along it; with --divergence, hits of one beam")
       .group(heading)
       .between(1, 64)
       .show_default();
@@ -230,7 +229,7 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .one_of(echo_orders)
       .show_default();
   verb.add_option("--divergence", options.scan.divergence,
-                  "Full beam angle (rad); echoes are then first hits of the beam's rays")
+                  "Full beam angle (rad). If set, echoes are the first hits of --beam-rays rays")
       .group(heading)
       .between(0.0, 1.0);
   verb.add_option("--beam-rays", options.scan.beam_rays, "Rays per beam")
@@ -261,7 +260,8 @@ void add_scan(Parser& parser, ExitCode&) {
       .required()
       .one_value_each()
       .writes_file();
-  verb.add_option("--ids", options->table, "JSON file to write: numbers and names of the objects")
+  verb.add_option("--ids", options->table,
+                  "JSON file to write, with the number and name of each object")
       .writes_file();
   verb.add_flag("--half", options->has_halfs, "Write .exr with 16-bit floats");
   verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")

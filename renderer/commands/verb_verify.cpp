@@ -276,11 +276,11 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
   verb.add_flag("--only-obstacles", inputs.cell.only_obstacles,
                 "Check obstacles only, not self-collision");
   verb.add_option("--tolerance", options->referee.tolerance,
-                  "Relative gap between the bounds of the least clearance")
+                  "Largest gap between the bounds, relative to the least clearance")
       .between(1e-9, 1.0)
       .show_default();
   verb.add_option("--budget", options->budget,
-                  "Most distance queries per pair and step (row to row); then undecided")
+                  "Distance queries per pair and step (row to row) before `undecided`")
       .between(std::size_t{1}, std::size_t{1'000'000'000})
       .show_default();
   verb.add_flag("--serve", options->serve,

@@ -37,7 +37,7 @@ inline constexpr std::array data_channels = {
     DataChannelDescription{"emission", "RGB", "light emitted by the surface, or 0"},
     DataChannelDescription{"thickness", "", "length of the ray inside the object; 0 for a miss"},
     DataChannelDescription{
-        "uv", "UV", "a mesh's texture coordinates, else those of texture mapping radial; or 0"},
+        "uv", "UV", "texture coordinates: a mesh's, else of the mapping `radial`; 0 if none"},
     DataChannelDescription{"motion", "XY",
                            "motion of the point while the shutter is open, in pixels; or 0"},
     DataChannelDescription{"direct", "RGB",

@@ -206,7 +206,7 @@ std::string shapes_as_text() {
 std::string shapes_as_markdown() {
   std::string text =
       "| shape | parameter | value | unit | constraint | meaning |\n"
-      "| --- | --- | --- | --- | --- | --- |\n";
+      "|---|---|---|---|---|---|\n";
   for_each_listed_shape([&]<class S>() {
     text += "| `" + std::string(S::name) + "` | | | | | " + cell(S::doc) + " |\n";
     for_each_description<S>([&](const Parameter& parameter, const MemberDescription& member) {

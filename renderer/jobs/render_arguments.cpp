@@ -38,7 +38,7 @@ void RenderArguments::add_to(const Verb& verb) {
   }
   verb.add_option("--integrator", integrator, kinds).one_of(names).show_default();
   verb.add_option("--max-depth", max_depth,
-                  "Most bounces of --integrator path; 0: emissive objects only")
+                  "Maximum bounces of --integrator path; 0: emissive objects only")
       .between(0, 1000)
       .show_default();
   verb.add_option("--bounces", bounces,
@@ -91,7 +91,7 @@ void RenderArguments::add_to(const Verb& verb) {
       .between(1, 999999)
       .group(several_machines);
   verb.add_option("--checkpoint", checkpoint_seconds,
-                  "Seconds between checkpoints (next to the first output); 0: none")
+                  "Seconds between checkpoints (written next to the first output); 0: none")
       .between(0.0, 1e9)
       .show_default();
   verb.add_flag("--resume", resume, "Resume from the checkpoint, if there is one");
@@ -101,7 +101,7 @@ void RenderArguments::add_to(const Verb& verb) {
       .takes("HOST:PORT");
   verb.add_option("--frames", frames,
                   "Render these frames; #### in -o becomes the frame number\n"
-                  "--resume skips frames listed in NAME-####.png.frames")
+                  "--resume skips frames listed in NAME-####.png.frames (written by --frames)")
       .takes("A..B");
   verb.add_option("--rate", rate, "Frames per second (fps)").between(1e-6, 1e6).show_default();
   verb.add_option("--contact-sheet", contact_sheet, "Picture with thumbnails of all --frames")

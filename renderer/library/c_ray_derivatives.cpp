@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// C interface: derivatives of ray casts by the rays and the bodies that they hit.
+// C interface: derivatives of ray casts with respect to the rays and to the bodies that they hit.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -141,8 +141,8 @@ class Derivatives {
     if (!is_ridge) tell_errors(i, ray, met, arm);
   }
 
-  /// Bounds for m = n/(n.d), the derivative by the origin, for t m, that by the direction, and for
-  /// arm x m, that by a turn.
+  /// Bounds for m = n/(n.d), the derivative with respect to the origin, for t m (to the direction),
+  /// and for arm x m (to a turn).
   void tell_errors(std::size_t i, const Ray<double>& ray, const Met& met,
                    const Vec3<double>& arm) const {
     const double length = ray.direction.norm();

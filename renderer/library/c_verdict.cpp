@@ -15,7 +15,8 @@
 namespace minkray {
 namespace {
 
-/// First or second derivatives of the joints' values by the row, in the order of the path's joints.
+/// First or second derivatives of the joints' values with respect to the row, in the order of the
+/// path's joints.
 std::vector<std::vector<std::vector<double>>> derivatives_of(const HeldScene::Group& robot,
                                                              const JointPath& path,
                                                              const double* rates,

@@ -14,11 +14,13 @@ BEGIN, END = "<!-- made by renderer/library/function_tables.py -->\n", "<!-- end
 
 
 def first_phrase(text):
-    """The first sentence of a comment, or what is in front of its first colon."""
+    """The first sentence of a comment, or what is in front of its first colon outside of parentheses."""
     text = re.sub(r"\s+", " ", text).strip()
     text = re.sub(r"^[a-z ]+ : ", "", text)  # of a property: its type
     text = re.split(r"(?<=[^.\s])[.;](?:\s|$)", text, maxsplit=1)[0]
-    before = re.split(r":\s", text, maxsplit=1)[0]
+    colons = [at.start() for at in re.finditer(r":\s", text)]
+    outside = (at for at in colons if text.count("(", 0, at) == text.count(")", 0, at))
+    before = text[: next(outside, len(text))]
     text = before if len(before.split()) >= 3 else text
     return text.replace("|", "\\|")
 

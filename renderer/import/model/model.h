@@ -126,7 +126,7 @@ Affine<double> motion_of(const ModelJoint& joint);
 /// Two directions of a plane with that normal, along which a planar joint slides.
 std::array<Vec3<double>, 2> directions_across(const Vec3<double>& normal);
 
-/// Poses of the links in the world, by the joints' values.
+/// Poses of the links in the world for the joints' values.
 std::vector<Affine<double>> link_poses(const Model& model);
 
 /// The joints that have a value, by name: the first one if several have the same name. Valid as

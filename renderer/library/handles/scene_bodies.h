@@ -38,7 +38,7 @@ class SceneBodies {
 
   /// The objects nearest to a body, the nearest first; of those in a category of the mask.
   std::vector<ScenePair> nearest(const ContactBody& to, std::size_t count, double at_most) const;
-  /// Derivative by a twist of body `of`.
+  /// Derivative with respect to a twist of body `of`.
   PairDerivative derivative(const ContactBody& of, const ScenePair& pair,
                             PairDerivativeError* error = nullptr) const;
 

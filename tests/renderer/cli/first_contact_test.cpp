@@ -88,7 +88,7 @@ TEST(FirstContact, words_that_are_not_known_are_told_with_what_to_write) {
       {"help rendr", "did you mean `render`?"},
       {"render shape-zoo --samples 4", "unknown option `--samples`; did you mean `--spp N`?"},
       {"render shape-zoo --width 320", "did you mean `--resolution WIDTHxHEIGHT`?"},
-      {"render shape-zoo --camera 1,2,3", "the scene file says it: \"camera\""},
+      {"render shape-zoo --camera 1,2,3", "set it in the scene file: \"camera\""},
       {"render shape-zoo --smaples 4", "did you mean `--spp N`?"},
       {"render shape-zoo --toenmap agx", "did you mean `--tonemap`?"},
       {"render shape-zoo --no-such-thing", "minkray render --help lists all"},

@@ -125,7 +125,7 @@ TEST(ClearanceVerb, fails_where_less_is_proven_than_is_asked_for) {
   EXPECT_EQ(clearance(folder, "--path swing.csv --at-least 0.19").exit_code, 0);
   const ProgramOutcome less = clearance(folder, "--path swing.csv --at-least 0.21");
   EXPECT_EQ(less.exit_code, 1);
-  EXPECT_NE(less.err.find("not proven to be 0.21"), std::string::npos);
+  EXPECT_NE(less.err.find("not proven to be at least 0.21"), std::string::npos);
   // Half the way it does not come so near.
   EXPECT_EQ(clearance(folder, "--path half.csv --at-least 0.21").exit_code, 0);
 }

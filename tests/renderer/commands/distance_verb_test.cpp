@@ -175,8 +175,8 @@ TEST_F(DistanceVerb, what_is_wrong_with_its_words_or_files_is_told) {
   };
   expect("", 2, "files");
   expect("tool.json", 2, "must have a second file");
-  expect("tool.json other.json --within 1", 2, "of two shapes only");
-  expect("tool.json other.json --joint rail=1", 2, "of two shapes only");
+  expect("tool.json other.json --within 1", 2, "for two shapes only");
+  expect("tool.json other.json --joint rail=1", 2, "for two shapes only");
   expect("arm.urdf --at-most 1", 2, "are for two shapes");
   expect("ball.json arm.urdf --joint rail=1", 2, "must be the first file");
   expect("ball.json arm.urdf --srdf arm.srdf", 2, "ball.json is no robot");

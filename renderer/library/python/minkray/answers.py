@@ -84,17 +84,17 @@ class Hits(_Arrays):
     part : int32
         The triangle, if the object is a mesh; else -1.
     jac_ray : float64, six numbers each
-        With ``jac=True``: the derivative of `t` by the ray's origin and by its direction; NaN for a
-        miss, zero where the ray begins inside.
+        With ``jac=True``: the derivative of `t` with respect to the ray's origin and its direction;
+        NaN for a miss, zero if the ray begins inside.
     jac_body : float64, six numbers each
-        The derivative by a twist (v, w) of the object: v is the velocity of its frame's origin along
-        the world's axes, w the angular velocity about that point.
+        The derivative of `t` with respect to a twist (v, w) of the object: v is the velocity of its
+        frame's origin along the world's axes, w the angular velocity about that point.
     is_ridge : bool
         True where the derivative may be ambiguous or undefined: the ray passes through an edge,
         grazes a shape, or hits two objects at once.
     jac_error_ray, jac_error_body : float64, two numbers each
-        With ``jac_error=True``: bounds of the length of the error of `jac_ray`, by origin and by direction, and of
-        `jac_body`, by velocity and by angular velocity; NaN for a miss, inf on ridges and for shapes
+        With ``jac_error=True``: bounds of the length of the error of `jac_ray`, for origin and for direction,
+        and of `jac_body`, for velocity and for angular velocity; NaN for a miss, inf on ridges and for shapes
         known by their support mapping only.
     """
 
@@ -142,9 +142,10 @@ class Clearance(_Arrays):
     point_a, point_b, normal : float64, three numbers each
         Nearest points at `row`, in the world, and the direction from a to b.
     jac, is_ridge : (K, J) float64, (K,) bool
-        With ``jac=True``: the derivative of the distance by the joints' values at `row`, and True
-        where it may be ambiguous, for example if two pairs are equally near. The derivatives by the
-        two rows around `row` are ``(1 - s) * jac`` and ``s * jac``, with ``s`` the fraction of `row`.
+        With ``jac=True``: the derivative of the distance with respect to the joint values at `row`, and
+        True where it may be ambiguous, for example if two pairs are equally near. The derivatives with
+        respect to the two rows around `row` are ``(1 - s) * jac`` and ``s * jac``, with ``s`` the
+        fraction of `row`.
     jac_error : (K, J) float64
         With ``jac_error=True``: bounds of the error of each number of `jac`, at the values at `row` as
         rounded; inf on ridges and for meshes.

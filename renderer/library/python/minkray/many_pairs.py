@@ -28,13 +28,14 @@ class Distances(_Arrays):
     supports : (N,) int32
         Number of support points computed.
     jac_a, jac_b : (N, 6) float64
-        With ``jac=True``: the derivative of `value` by a twist (v, w) of each body: v is the velocity
-        of its frame's origin along the world's axes, w the angular velocity about that point.
+        With ``jac=True``: the derivative of `value` with respect to a twist (v, w) of each body: v is the
+        velocity of its frame's origin along the world's axes, w the angular velocity about that point.
     is_ridge : (N,) bool
         With ``jac=True``: True where the bounds do not exclude other derivatives, as for parallel
         faces; `jac_a` and `jac_b` are one of them.
     jac_error_a, jac_error_b : (N, 2) float64
-        With ``jac_error=True``: bounds of the error (length) of `jac_a` and `jac_b`, for v and for w;
+        With ``jac_error=True``: bounds of the length of the error of `jac_a` and `jac_b`, for v and
+        for w;
         inf if unknown: on ridges, for meshes, some depths, and w at surfaces of unknown curvature.
     """
 
@@ -58,8 +59,8 @@ class Impacts(_Arrays):
     status : (N,) uint8
         An `ImpactStatus`.
     jac_a, jac_b : (N, 6) float64
-        With ``jac=True``: the derivative of the time by a twist (v, w) of each body's pose at time 0, as
-        in `Distances`; NaN without contact, zero if they overlap at time 0.
+        With ``jac=True``: the derivative of the time with respect to a twist (v, w) of each body's pose
+        at time 0, as in `Distances`; NaN without contact, zero if they overlap at time 0.
     is_ridge : (N,) bool
         With ``jac=True``: True where the derivative may be ambiguous or undefined, as for a grazing
         contact.
@@ -280,7 +281,7 @@ def signed_distances(a, pose_a, b, pose_b, *, jac=False, jac_error=False, tolera
     jac_error : bool
         Add bounds of the derivatives' errors.
     tolerance : float
-        Gap between the bounds, relative to the shapes' sizes.
+        Largest gap between the bounds, relative to the shapes' sizes.
     memory : (N, 8) array, optional
         Made by `pair_memory`; read and written.
     threads : int

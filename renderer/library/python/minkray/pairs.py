@@ -122,7 +122,7 @@ def signed_distance(a, pose_a, b, pose_b, tolerance=1e-10):
         From the shape's frame to the world; None for the identity. Lists of shapes and poses follow
         NumPy's broadcasting: one shape at N poses, N shapes at one pose, N at N.
     tolerance : float
-        Gap between the bounds, relative to the shapes' sizes.
+        Largest gap between the bounds, relative to the shapes' sizes.
 
     Returns
     -------

@@ -521,13 +521,13 @@ class Scene(PairsOfScene):
             Rows of joint values in the order of `Robot.joint_names` (radians or lengths; four per
             ball joint), linear between rows.
         tolerance : float
-            Gap between the bounds, relative to the clearance.
+            Largest gap between the bounds, relative to the clearance.
         only_obstacles : bool
             Check obstacles only, not self-collision.
         threads : int
             0: one per core.
         jac : bool
-            Add derivatives by the joints.
+            Add derivatives with respect to the joint values.
         jac_error : bool
             Add bounds of the derivatives' errors.
 
@@ -556,12 +556,12 @@ class Scene(PairsOfScene):
         path : (K, J) array
             Rows of joint values in the order of `Robot.joint_names`.
         rates : (K, J) array
-            Derivatives of the joint values per row. With them joints move as cubics between rows,
-            else linearly.
+            Derivatives of the joint values per row. With rates, joints move as cubics between rows;
+            without, linearly.
         margin : float
             Distance that the robot must keep from obstacles.
         tolerance : float
-            Gap between the bounds of the least clearance, relative to it.
+            Largest gap between the bounds of the least clearance, relative to it.
         only_obstacles : bool
             Check obstacles only, not self-collision.
         threads : int
@@ -569,7 +569,7 @@ class Scene(PairsOfScene):
         budget : int
             Distance queries per pair and step before a motion is undecided.
         accelerations : (K, J) array
-            Second derivatives, with `rates`: joints then move as quintics.
+            Second derivatives of the joint values (need `rates`): joints then move as quintics.
         proof : str or path
             File for a proof, which ``minkray-check`` confirms. None is written for an undecided motion.
 

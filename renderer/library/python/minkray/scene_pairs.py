@@ -61,8 +61,9 @@ class Nearest(_Arrays):
     status : uint8
         A `DistanceStatus`.
     jac, is_ridge : six numbers, and bool
-        With ``jac=True``: the derivative of `value` by a twist of the shape (for a point, its
-        velocity), and True where it may be ambiguous. Other objects at the same distance do not count.
+        With ``jac=True``: the derivative of `value` with respect to a twist of the shape (for a
+        point, its velocity), and True where it may be ambiguous. Other objects at the same distance do
+        not count.
     jac_error : two numbers
         With ``jac_error=True``: bounds of the length of the error of `jac`, as of `Distances`.
     """
@@ -83,9 +84,9 @@ class SceneImpacts(_Arrays):
     normal, point_a, point_b, distance, status
         As in `Impacts`; a is the shape.
     jac, is_ridge : (N, 6) float64, (N,) bool
-        With ``jac=True``: the derivative of the time by a twist of the shape at time 0.
+        With ``jac=True``: the derivative of the time with respect to a twist of the shape at time 0.
     jac_error : (N, 2) float64
-        With ``jac_error=True``: bounds of the length of the error of `jac`, as of `Impacts`.
+        With ``jac_error=True``: bounds of the length of the error of `jac`, as in `Impacts`.
     """
 
     def __repr__(self):
@@ -255,7 +256,7 @@ class PairsOfScene:
             In the world's unit: pairs that are proven to be further apart are skipped. Default 0 (pairs
             that touch or overlap); inf for given pairs.
         tolerance : float
-            Gap between the bounds, relative to the objects' sizes.
+            Largest gap between the bounds, relative to the objects' sizes.
         jac : bool
             Add derivatives.
         jac_error : bool
