@@ -90,7 +90,7 @@ void CallProgram::clearance() {
   for (std::size_t i = 0; i < rows * numbers; ++i) path.push_back(2 * bytes_.fraction() - 1);
   if (hostile()) path[0] = NAN, sure = Sure::wrong;
   if (hostile()) rows = 0, sure = Sure::wrong;
-  minkray_clearance_options options = {sizeof options, 0.3, bytes_.below(2), 1};
+  minkray_clearance_options options = {sizeof options, 0.3, bytes_.below(2), 1, nullptr};
   if (hostile()) options.tolerance = -1, sure = Sure::wrong;
   if (hostile()) options.threads = -1, sure = Sure::wrong;
   const std::size_t count = rows > 1 ? rows - 1 : 1;

@@ -108,9 +108,12 @@ TEST(SceneDerivativeErrors, of_ellipsoids_above_half_spaces) {
   std::vector<mk::Pose> poses;
   for (int i = 0; i < 200; ++i) {
     double q[4], n = 0;
-    for (double& x : q) n += (x = normal(random)) * x;
+    for (double& x : q) {
+      x = normal(random);
+      n += x * x;
+    }
     n = std::sqrt(n);
-    poses.push_back(mk::pose({10.0 * i, 0, 2}, {q[0] / n, q[1] / n, q[2] / n, q[3] / n}));
+    poses.push_back(mk::pose({0.05 * i, 0, 2}, {q[0] / n, q[1] / n, q[2] / n, q[3] / n}));
     scene.add(mk::ellipsoid({axes[0], axes[1], axes[2]}), poses.back());
   }
   scene.commit();
@@ -183,8 +186,7 @@ TEST(SceneDerivativeErrors, are_not_written_for_older_programs) {
 /// An arm of two hinges and a slide, with a ball at its end.
 class Arm : public testing::Test {
  protected:
-  Arm() {
-    robot_ = scene_.add_file(folder_.write("arm.urdf", urdf()), options());
+  Arm() : robot_(scene_.add_file(folder_.write("arm.urdf", urdf()), options())) {
     scene_.add(mk::sphere(0.25), mk::translation({1.5, 1.0, 0.5}));
     scene_.commit();
   }
