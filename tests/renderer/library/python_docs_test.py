@@ -104,10 +104,11 @@ class Stubs(unittest.TestCase):
             fields = {one.target.id for one in node.body if isinstance(one, ast.AnnAssign)}
             self.assertEqual(fields - OF_JAC, set(vars(answer)), type(answer).__name__)
         pairs = (mk.sphere(1), None, mk.sphere(1), None)
-        for answer in (scene.cast_rays(ray, jac=True, jac_error=True), arm.clearance(robot, [[0, 0]], jac=True),
+        for answer in (scene.cast_rays(ray, jac=True, jac_error=True),
+                       arm.clearance(robot, [[0, 0]], jac=True, jac_error=True),
                        mk.signed_distances(*pairs, jac=True, jac_error=True), mk.manifolds(*pairs),
                        mk.times_of_impact(*pairs[:2], None, *pairs[2:], None, jac=True, jac_error=True),
-                       scene.distances(within=1, jac=True), scene.nearest([0, 0, 0], jac=True),
+                       scene.distances(within=1, jac=True, jac_error=True), scene.nearest([0, 0, 0], jac=True, jac_error=True),
                        scene.time_of_impact(mk.sphere(1), None, [0] * 6, jac=True, jac_error=True)):
             node = self.stub[type(answer).__name__]
             fields = {one.target.id for one in node.body if isinstance(one, ast.AnnAssign)}

@@ -74,10 +74,14 @@ class Clearances(unittest.TestCase):
     def check(self, scene, robot, rows, least_known):
         known = 0
         for q in rows:
-            c = scene.clearance(robot, q, jac=True)
+            c = scene.clearance(robot, q, jac=True, jac_error=True)
             self.assertEqual(c.jac.shape, (1, len(q)))
+            self.assertEqual(c.jac_error.shape, (1, len(q)))
             if c.is_ridge[0]:
+                self.assertTrue(np.isinf(c.jac_error).all())
                 continue
+            if c.lower[0] > 0:  # the direction of a depth is known to less
+                self.assertLess(c.jac_error.max(), 1e-5)
             known += 1
             step = 1e-4
             slope = [(scene.clearance(robot, q + d).upper[0] - scene.clearance(robot, q - d).upper[0]) / (2 * step)
