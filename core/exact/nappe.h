@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters and leaves an endless cone around the z axis, below its apex: shared
+// Finds where a line enters and leaves an infinite cone around the z axis, below its apex: shared
 // by frustums and tapered capsules.
 #pragma once
 
@@ -16,7 +16,7 @@ inline constexpr Lane<W> endless = 1 / least_to_square<Lane<W>>;
 /// 2 max(R, apex) of the apex.
 template <class W>
 struct Nappe {
-  Mask<W> hit, miss;       ///< of the cone above and below the apex; neither: in doubt
+  Mask<W> hit, miss;       ///< of both nappes, above and below the apex; neither: in doubt
   W in, in_e, out, out_e;  ///< where the line enters and leaves the nappe, and the errors;
                            ///< -endless or endless where it does not
 
@@ -72,7 +72,7 @@ struct Nappe {
     return {x * per, y * per, W(sine)};
   }
 
-  /// Lines that enter and leave the nappe above the apex, which is not part of the form.
+  /// True for lines that enter and leave the nappe above the apex, which is not part of the form.
   template <class S>
   Mask<W> is_above(const S& apex, const Line<W>& line) const {
     return hit & (a_ > W(0)) & (line.s.z() + out * line.d.z() > W(apex));
