@@ -17,8 +17,8 @@ inline constexpr Lane<W> endless = 1 / least_to_square<Lane<W>>;
 template <class W>
 struct Nappe {
   Mask<W> hit, miss;       ///< of both nappes, above and below the apex; neither: in doubt
-  W in, in_e, out, out_e;  ///< where the line enters and leaves the nappe, and the errors;
-                           ///< -endless or endless where it does not
+  W in, in_e, out, out_e;  ///< parameters of entry and exit, and their errors; -endless or
+                           ///< endless if there is no entry or exit
 
   template <class S>
   Nappe(const S& slope, const S& apex, const S& R, const Line<W>& line, const Mask<W>& open)
