@@ -69,9 +69,9 @@ Bvh build_bvh(FirstTouchVector<Bounds<float>>&& boxes, BvhBuild build = BvhBuild
 /// rebuild.
 void refit(Bvh& bvh, std::span<const Bounds<float>> boxes);
 
-/// Expected number of nodes, and of boxes in leaves, visited by a random line that meets the
-/// root's box: the sum of their surface areas, divided by the root's. The surface area heuristic
-/// minimises both numbers.
+/// Expected number of nodes, and of boxes in leaves, visited by a random line that meets the root's
+/// box: the sum of their surface areas, divided by the root's. The surface area heuristic minimises
+/// both numbers.
 struct VisitEstimate {
   double nodes = 0, leaves = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The padded slab tests of core/bvh/slab_ray.h for several boxes in lanes. All names
-// contain the lanes' type, and so the instruction set (core/math/wide.h).
+// The padded slab tests of core/bvh/slab_ray.h for several boxes in lanes. All names contain the
+// lanes' type, and so the instruction set (core/math/wide.h).
 #pragma once
 
 #include "core/bvh/bvh.h"

@@ -12,7 +12,7 @@ namespace minkray::exact {
 template <class W>
 inline constexpr Lane<W> endless = 1 / least_to_square<Lane<W>>;
 
-/// x^2 + y^2 <= slope^2 (apex - z)^2, z <= apex. R is the form's. The form lies within
+/// x^2 + y^2 <= slope^2 (apex - z)^2, z <= apex. R is the form's radius. The form lies within
 /// 2 max(R, apex) of the apex.
 template <class W>
 struct Nappe {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a rounded box around the origin. The slabs of the inner box
-// divide space into shares: the regions of faces, edges and corners. From where the line enters the
-// box grown by the radius, it is followed through the shares to the first one whose plane, cylinder
-// or ball it enters there.
+// Finds where a line enters a rounded box around the origin. The slabs of the inner box divide
+// space into shares: the regions of faces, edges and corners. From where the line enters the box
+// grown by the radius, it is followed through the shares to the first one whose plane, cylinder or
+// ball it enters there.
 #pragma once
 
 #include "core/exact/ball.h"

@@ -26,8 +26,8 @@ class PointCloud {
   const std::vector<Vec3<T>>& points() const { return *points_; }
   const std::string& source() const { return source_; }
 
-  /// Null if the hull is flat up to rounding. The normals are those of the points before
-  /// they were rounded to T.
+  /// Null if the hull is flat up to rounding. The normals are those of the points before they were
+  /// rounded to T.
   const FacetMesh<T>* facets() const { return facets_.get(); }
 
   /// Rounds the points to U. Data computed from the points is shared, not computed again: support

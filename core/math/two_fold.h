@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Numbers, vectors and maps with twice the digits, each stored as an unevaluated sum of two: for
 // differences of positions that are far from the origin. The error-free sums and products are those
-// of Knuth and Dekker (Dekker, "A Floating-Point Technique for
-// Extending the Available Precision", 1971). Sums of terms as large as x are known to 2^-104 x.
+// of Knuth and Dekker (Dekker, "A Floating-Point Technique for Extending the Available Precision",
+// 1971). Sums of terms as large as x are known to 2^-104 x.
 #pragma once
 
 #include <cmath>

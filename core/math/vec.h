@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The vector vocabulary: Eigen's fixed-size columns and matrices over a scalar W, which is float,
-// double or (for packets of rays) a vector of lanes. Code that also runs on packets uses the
-// free functions here instead of `if`.
+// double or (for packets of rays) a vector of lanes. Code that also runs on packets uses the free
+// functions here instead of `if`.
 #pragma once
 
 #include <Eigen/Core>

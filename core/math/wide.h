@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A packet of numbers: the scalar of packets of rays. Uses the compiler's vector types, so that one
-// source serves every instruction set. `Isa` names the instruction set that the including file
-// is compiled for. As a part of the type, it gives functions for different instruction sets
-// different names, so that the linker cannot mix them up (docs/decisions/packets.md).
+// source serves every instruction set. `Isa` names the instruction set that the including file is
+// compiled for. As a part of the type, it gives functions for different instruction sets different
+// names, so that the linker cannot mix them up (docs/decisions/packets.md).
 #pragma once
 
 #if defined(__AVX2__)

@@ -40,8 +40,8 @@ inline bool is_wide(const PartHit& hit) {
   return hit.error > wide * hit.t;
 }
 
-/// Same as yields_to, but handles wide hits: a wide hit yields to another one if the ray
-/// enters the box of its triangle only behind the other's t plus error.
+/// Same as yields_to, but handles wide hits: a wide hit yields to another one if the ray enters the
+/// box of its triangle only behind the other's t plus error.
 bool yields_to_or_is_wide(const TriangleMesh& mesh, const Ray<double>& ray, const PartHit& closest,
                           const PartHit& hit);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A facet of a polytope that a line enters, and its supporting plane: a guess,
-// which the solvers verify by the support mapping, or by results stored with the polytope.
+// A facet of a polytope that a line enters, and its supporting plane: a guess, which the solvers
+// verify by the support mapping, or by results stored with the polytope.
 #pragma once
 
 #include "core/model/line_cast.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The bodies that a hull cast supports: a ball and an ellipsoid. Each has its support function and
-// the normals where the ray meets the body alone, or swept along an edge. docs/forms.md
-// derives them. The frame is hull_cast.h's.
+// the normals where the ray meets the body alone, or swept along an edge. docs/forms.md derives
+// them. The frame is hull_cast.h's.
 #pragma once
 
 #include "core/query/ray_frame.h"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The loop of all solvers on jets (docs/forms.md). A supporting plane in direction n gives a
-// rigorous lower bound of the hit. The hit on a model, the hull of the features found so
-// far, is an upper bound (approximately, if features are not exact); its normal is the next n. The
-// search ends when both meet. W is a number or a packet, one ray per lane; finished lanes take part
-// without effect.
+// rigorous lower bound of the hit. The hit on a model, the hull of the features found so far, is an
+// upper bound (approximately, if features are not exact); its normal is the next n. The search ends
+// when both meet. W is a number or a packet, one ray per lane; finished lanes take part without
+// effect.
 #pragma once
 
 #include "core/query/observer.h"
@@ -165,8 +165,7 @@ Vec3<W> normal_on_ellipsoid(const Vec3<Lane<W>>& radii, const Vec3<W>& s, const 
 }
 
 /// Returns approximately the same for a shape with these half extents: a first unit direction for
-/// the support mapping. Extents that are negligible next to the largest are increased
-/// slightly.
+/// the support mapping. Extents that are negligible next to the largest are increased slightly.
 template <class W>
 Vec3<W> normal_on_extents(const Vec3<Lane<W>>& half_extents, const Vec3<W>& s, const Vec3<W>& r) {
   using std::max;

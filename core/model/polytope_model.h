@@ -2,8 +2,8 @@
 // The model for polytopes: the hull of up to four vertices. A triangle of them that the ray passes
 // through is a portal, whose plane's normal is the next direction. While there is none, vertices
 // become balls that touch their supporting planes from inside, as on a curved shape. The balls
-// shrink, so that this ends. If the polytope's facets are known, the first portal
-// is the one that the ray enters by.
+// shrink, so that this ends. If the polytope's facets are known, the first portal is the one that
+// the ray enters by.
 #pragma once
 
 #include <array>

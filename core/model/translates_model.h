@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The model for shapes that are the hull of translates of one body: of a ball around the vertices
-// of a polytope, or of an ellipsoid. The model is the hull of up to four of
-// them.
+// of a polytope, or of an ellipsoid. The model is the hull of up to four of them.
 #pragma once
 
 #include "core/model/entered_facet.h"

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a polytope that is grown by a radius: the nearest face moved out,
-// the cylinder around an edge, or the ball around a vertex: the feature that no neighbour rises
-// above at its contact. Walks from feature to feature as Lin and Canny do ("A Fast
-// Algorithm for Incremental Distance Calculation", 1991); the same code for one line and for
-// one line per lane.
+// Finds where a line enters a polytope that is grown by a radius: at the nearest face moved out,
+// the cylinder around an edge or the ball around a vertex, whichever no neighbour rises above at
+// its contact. Walks from feature to feature as Lin and Canny do ("A Fast Algorithm for Incremental
+// Distance Calculation", 1991); the same code for one line and for one line per lane.
 #pragma once
 
 #include "core/polytope/polytope_walk.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tables for walks over a polytope: rows of numbers that the lanes of a packet gather. Links are
-// numbers, too: indices of half-edges. triangle f has 3 f, 3 f + 1, 3 f + 2,
-// counter-clockwise from outside.
+// numbers, too: indices of half-edges. Triangle f has 3 f, 3 f + 1, 3 f + 2, counter-clockwise from
+// outside.
 #pragma once
 
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Certificates: short proofs of the claims of ray casts, checked with the support mapping alone
-// (core/proof/check_certificate.h, docs/certificates.md). For a hit, a supporting plane
-// separates the shape from the ray before t_lo, and at most four support points span a point of the
-// shape on the ray at t_hi. If the ray begins inside, they span its origin. A miss has a plane
-// between the shape and the ray.
+// (core/proof/check_certificate.h, docs/certificates.md). For a hit, a supporting plane separates
+// the shape from the ray before t_lo, and at most four support points span a point of the shape on
+// the ray at t_hi. If the ray begins inside, they span its origin. A miss has a plane between the
+// shape and the ray.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finds the proof of a result by the GJK ray cast and the GJK distance of van den Bergen (2004).
-// Both end with a point that is spanned by support points. Points are relative to the
-// shape's middle.
+// Both end with a point that is spanned by support points. Points are relative to the shape's
+// middle.
 #pragma once
 
 #include <cmath>

@@ -28,9 +28,9 @@ struct BoundsCast {
 };
 
 /// Casts the line at the axis-aligned box with these half extents around the centre, which has a
-/// ball of radius R around it. Uses no division and does not move the ray, so misses are
-/// found quickly. Lines that miss by less than rounding, which grows with the origin's distance,
-/// stay open.
+/// ball of radius R around it. Uses no division and does not move the ray, so misses are found
+/// quickly. Lines that miss by less than rounding, which grows with the origin's distance, stay
+/// open.
 template <class W>
 [[gnu::always_inline]] inline BoundsCast<W> cast_at_box(const LineFromCentre<W>& line,
                                                         const Vec3<Lane<W>>& half_extents,

@@ -10,9 +10,9 @@
 
 namespace minkray {
 
-/// The points centre + s + lambda * r with begin <= lambda <= end, in lengths: those between
-/// the shape's two supporting planes perpendicular to the ray. All other points of the ray lie
-/// outside one of the two. Empty if begin > end.
+/// The points centre + s + lambda * r with begin <= lambda <= end, in lengths: those between the
+/// shape's two supporting planes perpendicular to the ray. All other points of the ray lie outside
+/// one of the two. Empty if begin > end.
 struct NearSegment {
   Vec3<double> centre, s, r;
   double begin = 0, end = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frames in which the ray runs down the z axis, from +z to -z, and two-dimensional
-// geometry of edges and triangles seen along it.
+// Frames in which the ray runs down the z axis, from +z to -z, and two-dimensional geometry of
+// edges and triangles seen along it.
 #pragma once
 
 #include "core/math/vec.h"

@@ -123,8 +123,8 @@ template <class W, class Centre>
   using std::sqrt;
   using T = Lane<W>;
 
-  // Powers of two keep the scaled direction exact, and its square in range; subnormal
-  // directions need two of them, since their numbers have no leading power.
+  // Powers of two keep the scaled direction exact, and its square in range; subnormal directions
+  // need two of them, since their numbers have no leading power.
   constexpr T up = std::is_same_v<T, float> ? T(0x1p100) : T(0x1p900);
   const W longest =
       max(abs(ray.direction.x()), max(abs(ray.direction.y()), abs(ray.direction.z())));

@@ -45,8 +45,8 @@ inline constexpr T flat_simplex = T(8) * epsilon<T>;
 inline constexpr int gjk_max_iterations = 1000;
 
 /// The jet cast ends when the model's hit lies no further than this beyond the best lower bound, as
-/// a distance between planes in units of the bounding radius: the rounding of a supporting
-/// plane's offset (a few roundings each of the support point, its move to the ray, and the plane).
+/// a distance between planes in units of the bounding radius: the rounding of a supporting plane's
+/// offset (a few roundings each of the support point, its move to the ray, and the plane).
 template <class T>
 inline constexpr T jet_gap = T(4) * epsilon<T>;
 
@@ -64,11 +64,10 @@ inline constexpr T plane_rounding = T(8) * epsilon<T>;
 template <class T>
 inline constexpr T least_slope = std::is_same_v<T, float> ? T(0x1p-16) : T(0x1p-36);
 
-/// Hits whose normal's component against the ray is less than this are checked again if the
-/// shape may have corners: rounding across the plane is longer along the ray by the inverse of the
-/// slope, and past a corner the ray leaves the shape's neighbourhood. Concerns rays within 3e-5 R
-/// of a round silhouette; the uncertainty of other hits along the ray is up to 2^7 times that
-/// across.
+/// Hits whose normal's component against the ray is less than this are checked again if the shape
+/// may have corners: rounding across the plane is longer along the ray by the inverse of the slope,
+/// and past a corner the ray leaves the shape's neighbourhood. Concerns rays within 3e-5 R of a
+/// round silhouette; the uncertainty of other hits along the ray is up to 2^7 times that across.
 template <class T>
 inline constexpr T uncertain_slope = T(0x1p-7);
 
@@ -78,8 +77,8 @@ template <class T>
 inline constexpr T uncertain_smooth_slope = std::is_same_v<T, float> ? T(0) : T(0x1p-12);
 
 /// Rounding of images under maps, in units of the summands' magnitude: three products and their
-/// sums, the inverse map's numbers, half an epsilon each; and as much for the entries of a
-/// rotation computed from a quaternion.
+/// sums, the inverse map's numbers, half an epsilon each; and as much for the entries of a rotation
+/// computed from a quaternion.
 template <class T>
 inline constexpr T map_rounding = T(4) * epsilon<T>;
 
@@ -119,8 +118,8 @@ template <class T>
 inline constexpr T tangent_push = T(8) * epsilon<T>;
 
 /// Distance from the ray, in units of the bounding radius, up to which a point of the model counts
-/// as on it, and by which a feature must reach further than another to matter: a few roundings of
-/// a position. Also the sine below which a direction counts as perpendicular to the ray.
+/// as on it, and by which a feature must reach further than another to matter: a few roundings of a
+/// position. Also the sine below which a direction counts as perpendicular to the ray.
 template <class T>
 inline constexpr T model_rounding = T(8) * epsilon<T>;
 
@@ -185,8 +184,8 @@ inline constexpr T box_padding = T(8) * epsilon<T>;
 
 /// Uncertainty that closed forms assume of a position near the shape, in units of the form's
 /// radius: E / R of docs/forms.md ("Casts with an error bound"). Float rays, computed in double:
-/// origins up to form_far away are moved with an error of 2^-33 R, and up to 5 times that along
-/// the ray. Double rays: rounding of the two steps and of some twenty operations after them, 2^-53
+/// origins up to form_far away are moved with an error of 2^-33 R, and up to 5 times that along the
+/// ray. Double rays: rounding of the two steps and of some twenty operations after them, 2^-53
 /// each.
 template <class T>
 inline constexpr double form_rounding = std::is_same_v<T, float> ? 0x1p-30 : 0x1p-49;

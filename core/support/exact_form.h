@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Closed form of a shape for casts: the form's name and its numbers. Casts at a shape
-// that declares none use its support mapping and jets only. The names and number of a shape's
-// parameters imply nothing.
+// Closed form of a shape for casts: the form's name and its numbers. Casts at a shape that declares
+// none use its support mapping and jets only. The names and number of a shape's parameters imply
+// nothing.
 #pragma once
 
 #include <array>

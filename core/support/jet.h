@@ -11,10 +11,10 @@
 
 namespace minkray {
 
-/// The ellipsoid { c + F b : |b| <= 1 }; columns of F may be zero. `exact` means that the
-/// whole ellipsoid is part of the shape (the same one for all directions in which it touches).
-/// Otherwise it only osculates in the requested direction: then `s` is the shape's support point
-/// there, from which the ellipsoid's may differ (where a radius of curvature is infinite).
+/// The ellipsoid { c + F b : |b| <= 1 }; columns of F may be zero. `exact` means that the whole
+/// ellipsoid is part of the shape (the same one for all directions in which it touches). Otherwise
+/// it only osculates in the requested direction: then `s` is the shape's support point there, from
+/// which the ellipsoid's may differ (where a radius of curvature is infinite).
 template <class W>
 struct Jet {
   Vec3<W> c = Vec3<W>::Zero();
