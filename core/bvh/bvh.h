@@ -10,13 +10,13 @@
 
 namespace minkray {
 
-/// Children of a node: as many boxes as fill a register of AVX2.
+/// Children of a node: the number of floats in an AVX2 register.
 inline constexpr int bvh_width = 8;
 
 /// Up to eight boxes, coordinate by coordinate, and the child in each. Boxes are rounded outwards
 /// to float, also for rays in double, at the cost of at most a few more visits.
 struct alignas(32) BvhNode {
-  /// No such child: the box is empty, and so are all that follow.
+  /// No child: its box is empty, as are all that follow.
   static constexpr std::uint32_t none = ~std::uint32_t{0};
   /// If this bit of a child is set, its other bits are the index of one of the boxes that the
   /// hierarchy was built from; otherwise the child is the index of a node.

@@ -18,7 +18,7 @@ T sum_or_less(T a, T b) {
   return sum.low < T(0) ? lower : sum.high;
 }
 
-/// Returns a number that is at least a + b, likewise.
+/// Returns a number that is at least a + b, rounded in the same way.
 template <class T>
 T sum_or_more(T a, T b) {
   return -sum_or_less(T(-a), T(-b));

@@ -16,9 +16,10 @@ namespace minkray::exact {
 /// Immutable. Positions are relative to the given middle.
 class Polytope {
  public:
-  /// Null if the points have no facets or too many points, if the hull is flat or not thicker than
-  /// the depths of its planes or, for rounded_by > 0, if triangles are so low that rounding decides
-  /// which features are next to a line. Points are multiplied by `down` first.
+  /// Null if there are no facets or too many points, or if the hull is flat or not thicker than the
+  /// depths of its planes. For rounded_by > 0, also null if the triangles are not convex or so low
+  /// that rounding decides which features are next to a line. Points are multiplied by `down`
+  /// first.
   template <class T>
   static std::shared_ptr<const Polytope> of(const PointCloud<T>& points, const Vec3<double>& middle,
                                             double down, double rounded_by = 0);

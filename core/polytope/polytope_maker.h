@@ -126,7 +126,7 @@ class Polytope::Maker {
   }
 
   /// Adds the radius, and the rounding that makes adjacent features ambiguous (docs/forms.md).
-  /// False if the polytope's triangles are too low.
+  /// False if the polytope is not convex or has triangles that are too low.
   bool make_room_for_rounding() {
     Long least = made_.radius_;
     for (const Triangle& triangle : triangles_) {
