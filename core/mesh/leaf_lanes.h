@@ -53,9 +53,8 @@ struct LeafRay {
 /// - A sheared coordinate of a true corner is at most `most`: all corners are in the leaf's cube,
 ///   whose image has its middle at `middle` and half its width at 32767.5 (1 + |shear|).
 /// - Its error is at most `off`, the sum of: half a unit each for x and z (1); the rounding of cx,
-/// of
-///   the shear and of two sums (u (3 most + 2 * 65535); the bound allows 4 u most + 0.01); the
-///   rounding, in double, of the way from the ray's origin (`far`, twice their size).
+///   of the shear and of two sums (u (3 most + 2 * 65535); the bound allows 4 u most + 0.01);
+///   the rounding, in double, of the way from the ray's origin (`far`, counted twice).
 /// - A product of two is off by 2 most off + off^2 and is rounded; so is the difference of two.
 [[gnu::always_inline]] inline std::uint32_t lanes_that_may_be_met(const MeshLeaf& leaf,
                                                                   const LeafRay& ray) {

@@ -54,15 +54,13 @@ LineHit<W> pick(const Mask<W>& condition, const LineHit<W>& a, const LineHit<W>&
 /// - `to_frame(n)`, `to_shape(n)`: convert a direction from the shape's frame to its own, and back;
 /// - `against_ray(n)`: the component of n against the ray's direction;
 /// - `begin(half_extents)`: the ModelHit before the first support call: a first direction, and a
-/// hit
-///   if the model already has features of the shape; half_extents are the shape's;
+///   hit if the model already has features of the shape; half_extents are the shape's;
 /// - `support(n, wanted)`: the shape's feature in the unit direction n, relative to the ray's
-/// closest
-///   approach s, with support_function(n) and support_point(n); any feature in lanes that are not
-///   wanted;
+///   closest approach s, with support_function(n) and support_point(n); any feature in lanes that
+///   are not wanted;
 /// - `step(feature, n, iteration)`: adds the feature to the model and returns the model's hit.
 ///
-/// The search ends beyond lambda_end; Rounding is relative to R. Only `open` lanes count.
+/// The search ends beyond lambda_end. Rounding is relative to R. Only `open` lanes count.
 /// `observer` receives each plane, unless it is NoObserver.
 template <class W, class Model, class Observer>
 LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const W& lambda_end,

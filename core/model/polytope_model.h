@@ -100,7 +100,7 @@ class PolytopeModel {
     Vec3<W> c = Vec3<W>::Zero();
     Vec3<W> n = Vec3<W>::Zero();  ///< the direction it was found in
     Mask<W> valid = Mask<W>(false);
-    Mask<W> carries = Mask<W>(false);  ///< part of the last hit
+    Mask<W> carries = Mask<W>(false);  ///< carries the last hit
   };
 
   /// Finds the highest triangle of the newest and two kept vertices that the ray passes through; m

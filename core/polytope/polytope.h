@@ -17,9 +17,9 @@ namespace minkray::exact {
 class Polytope {
  public:
   /// Null if there are no facets or too many points, or if the hull is flat or not thicker than the
-  /// depths of its planes. For rounded_by > 0, also null if the triangles are not convex or so low
-  /// that rounding decides which features are next to a line. Points are multiplied by `down`
-  /// first.
+  /// depths of its planes. For rounded_by > 0, also null if it is not convex or its triangles are
+  /// so low that rounding decides which features are next to a line. Points are multiplied by
+  /// `down` first.
   template <class T>
   static std::shared_ptr<const Polytope> of(const PointCloud<T>& points, const Vec3<double>& middle,
                                             double down, double rounded_by = 0);

@@ -169,8 +169,7 @@ class Polytope::Maker {
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
   }
 
-  /// Corners, counter-clockwise from outside, and the twin of each half-edge (from corner k to
-  /// k+1).
+  /// Corners counter-clockwise from outside; twins of the half-edges from each corner to the next.
   struct Triangle {
     std::array<std::uint32_t, 3> corner, twin;
   };

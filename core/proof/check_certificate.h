@@ -23,9 +23,8 @@ struct CertificateVerdict {
   /// Hit: t lies in t_base + [offset_lo, offset_hi]. The interval includes rounding: that of planes
   /// and of the spanned point, perpendicular to the plane, is larger along the ray.
   double t_base = 0, offset_lo = 0, offset_hi = 0;
-  double offset_planes = 0;  ///< hit: where the ray crosses the last of the planes
-  double offset_spanned =
-      0;               ///< hit: at the spanned point; due to rounding, planes may be beyond it
+  double offset_planes = 0;   ///< hit: where the ray crosses the last of the planes
+  double offset_spanned = 0;  ///< hit: at the spanned point; rounding may put planes beyond it
   double gap = 0;      ///< hit: depth of the spanned point below the plane, (t_hi - t_lo) * cosine
   double lateral = 0;  ///< distance of the spanned point from the ray (hit) or origin (inside)
   double margin = 0;   ///< miss: from the plane to the ray; negative if the ray crosses it

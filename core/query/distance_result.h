@@ -38,10 +38,8 @@ struct DistanceResult {
   /// The paper's |v|^2 - v.w, an upper bound of |v - v(A - B)|^2, which may be infinite. 0 if
   /// overlapping.
   T certificate = T(0);
-  Vec<T, Dim> point_a =
-      Vec<T, Dim>::Zero();  ///< point of A closest to B; overlapping: a common point
-  Vec<T, Dim> point_b =
-      Vec<T, Dim>::Zero();  ///< point of B closest to A; overlapping: a common point
+  Vec<T, Dim> point_a = Vec<T, Dim>::Zero();  ///< in A, closest to B; overlapping: in both
+  Vec<T, Dim> point_b = Vec<T, Dim>::Zero();  ///< in B, closest to A; overlapping: in both
   /// Unit normal of the separating planes, from A to B; zero if there are none.
   Vec<T, Dim> axis = Vec<T, Dim>::Zero();
   int iterations = 0;

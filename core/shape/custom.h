@@ -41,7 +41,7 @@ class SupportSource {
     Derivative factor = {};  ///< factor of the ellipsoid around the middle
   };
   /// Returns the jet, computed from the point and its symmetric derivative. Derivatives only guide
-  /// casts: wrong ones cost time but do not change results.
+  /// casts: wrong ones only cost time.
   JetNumbers jet_along(Coordinates direction) const;
 
   static constexpr std::size_t most = 16;

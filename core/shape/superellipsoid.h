@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A superellipsoid |x/a|^p + |y/b|^p + |z/c|^p <= 1: the octahedron for p = 1, the ellipsoid for p
-// = 2, nearly the box for large p.
+// A superellipsoid |x/a|^p + |y/b|^p + |z/c|^p <= 1: an octahedron for p = 1, an ellipsoid for
+// p = 2, nearly a box for large p.
 #pragma once
 
 #include "core/math/power.h"

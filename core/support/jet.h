@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Jets: a shape's support mapping to second order (derived in docs/forms.md). In direction n, a
-// shape is approximated by an ellipsoid with the same support point and curvature. With h(n) =
-// n.s(n), c an interior point, g = s - c and H = ds/dn, its shape matrix around c is A = h H + g
-// g^T. Jets store a factor F, A = F F^T, since A itself loses half of the digits of flat features.
+// shape is approximated by an ellipsoid with the same support point and curvature. With
+// h(n) = n.s(n), c an interior point, g = s - c and H = ds/dn, its shape matrix around c is
+// A = h H + g g^T. Jets store a factor F, A = F F^T, since A itself loses half of the digits of
+// flat features.
 #pragma once
 
 #include <concepts>
