@@ -10,16 +10,16 @@
 
 namespace minkray {
 
-/// Children of a node: as many boxes as fill a register of AVX2.
+/// Children of a node: the number of floats in an AVX2 register.
 inline constexpr int bvh_width = 8;
 
-/// Up to eight boxes, coordinate by coordinate, and what is in each. Boxes are rounded outwards to
-/// float whatever the scalar of the rays, which costs at most a few visits more.
+/// Up to eight boxes, coordinate by coordinate, and the child in each. Boxes are rounded outwards
+/// to float, also for rays in double, at the cost of at most a few more visits.
 struct alignas(32) BvhNode {
-  /// No such child: the box is empty, and so are all that follow.
+  /// No child: its box is empty, as are all that follow.
   static constexpr std::uint32_t none = ~std::uint32_t{0};
-  /// A child with this bit is one of the boxes that the hierarchy was built of, the rest is its
-  /// index; otherwise it is a node.
+  /// If this bit of a child is set, its other bits are the index of one of the boxes that the
+  /// hierarchy was built from; otherwise the child is the index of a node.
   static constexpr std::uint32_t leaf = std::uint32_t{1} << 31;
 
   float planes[2][3][bvh_width];  ///< lower corners, upper corners
@@ -52,26 +52,26 @@ struct Bvh {
 /// No path from the root is longer than this, whatever the boxes.
 inline constexpr int bvh_max_depth = 80;
 
-/// Build time or quality of a hierarchy (docs/decisions/many-rays.md).
+/// Preference of build quality or build speed (docs/decisions/many-rays.md).
 enum class BvhBuild : unsigned char {
   quality,  ///< by the surface area heuristic in bins (Wald 2007)
   speed,    ///< along a space-filling curve (Lauterbach et al. 2009)
 };
 
-/// The hierarchy of boxes [0, count), which must be at most 2^30. The same for any number of
-/// threads. The boxes must not be empty; they may be flat, alike, or infinite.
+/// Builds the hierarchy of at most 2^30 boxes. The result does not depend on the number of threads.
+/// The boxes must not be empty; they may be flat, equal, or infinite.
 Bvh build_bvh(std::span<const Bounds<float>> boxes, BvhBuild build = BvhBuild::quality);
 /// Frees the boxes as soon as they are read.
 Bvh build_bvh(FirstTouchVector<Bounds<float>>&& boxes, BvhBuild build = BvhBuild::quality);
 
-/// Refits the hierarchy to other boxes: those of objects that have moved. The further they moved
-/// against each other, the more nodes rays visit needlessly; rays find the same as after a
+/// Refits the hierarchy to the boxes of the same objects after they moved. The further they moved
+/// relative to each other, the more nodes rays visit needlessly; rays find the same as after a
 /// rebuild.
 void refit(Bvh& bvh, std::span<const Bounds<float>> boxes);
 
-/// Expected number of nodes, and of boxes in leaves, visited by a random line that meets the
-/// root's box: the sums of surface areas over that of the root. The surface area heuristic
-/// minimises these.
+/// Expected number of nodes, and of boxes in leaves, visited by a random line that meets the root's
+/// box: the sum of their surface areas, divided by the root's. The surface area heuristic minimises
+/// both numbers.
 struct VisitEstimate {
   double nodes = 0, leaves = 0;
 };

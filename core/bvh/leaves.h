@@ -13,7 +13,8 @@ struct BvhOfLeaves {
   FirstTouchVector<std::uint32_t> begins;  ///< begin of each leaf, then the end of the last one
 };
 
-/// As build_bvh for fast rays, with up to bvh_width boxes in each leaf, and nearly as many in most.
+/// Same as build_bvh with BvhBuild::quality, but with up to bvh_width boxes per leaf; most leaves
+/// are nearly full.
 BvhOfLeaves build_bvh_of_leaves(FirstTouchVector<Bounds<float>>&& boxes);
 
 }  // namespace minkray

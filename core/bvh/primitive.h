@@ -10,7 +10,7 @@
 
 namespace minkray {
 
-/// Three coordinates; what is in the fourth lane does not matter.
+/// Three coordinates; the fourth lane is ignored.
 using Float4 = Wide<float, 4, IsaHere>;
 
 struct BuildBox {
@@ -26,7 +26,7 @@ struct BuildBox {
     upper = max(upper, point);
   }
 
-  /// Half of the surface; in double, which float extents cannot overflow.
+  /// Half of the surface area, in double so that float extents cannot overflow it.
   double area() const {
     const auto extent = [&](int i) { return double(upper.lane(i)) - double(lower.lane(i)); };
     const double x = extent(0), y = extent(1), z = extent(2);
@@ -54,7 +54,7 @@ struct Primitive {
 
   std::uint32_t index() const { return std::bit_cast<std::uint32_t>(box.lower.lane(3)); }
 
-  /// Twice the middle, and never NaN: 0 for boxes without end.
+  /// Twice the middle; 0, not NaN, for unbounded boxes.
   Float4 middle() const {
     const Float4 sum = box.lower + box.upper;
     return select(abs(sum) <= Float4(std::numeric_limits<float>::max()), sum, Float4(0.0f));
@@ -62,7 +62,7 @@ struct Primitive {
 };
 static_assert(sizeof(Primitive) == 32);
 
-/// The boxes of a range: of the primitives, and of their doubled middles.
+/// Two boxes of a range: one around its primitives, one around their doubled middles.
 struct Extent {
   BuildBox box;
   BuildBox middles;

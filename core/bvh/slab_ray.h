@@ -2,8 +2,8 @@
 // Rays prepared for slab tests against eight boxes of floats, padded after Ize, "Robust BVH Ray
 // Traversal" (2013): rounding never loses a box that the exact ray meets. Rays of any scalar are
 // tested in float, with the origin rounded towards earlier first planes and later last planes. t is
-// counted in steps of a power of two so large that the direction's largest component is about 1:
-// any length stays in range.
+// scaled to steps, by a power of two that makes the direction's largest component about 1, so that
+// directions of any length stay in range.
 #pragma once
 
 #include <algorithm>
@@ -21,30 +21,31 @@ namespace minkray {
 /// Numbers of a ray for slab tests. Planes are met first (near) or last (far).
 struct SlabNumbers {
   float origin_near[3], origin_far[3];
-  float inverse_near[3], inverse_far[3];  ///< 1 / direction: infinite where there is no component
+  float inverse_near[3], inverse_far[3];  ///< 1 / direction; infinite where a component is 0
   float t_max;                            ///< in steps; negative: meets nothing
   int near[3];                            ///< 0: the lower plane, 1: the upper one
 };
 
 /// (plane - origin) * inverse is rounded three times: relative error gamma = 3u / (1 - 3u), u half
-/// the machine epsilon. Twice that, for two planes compared with each other, and one more rounding
-/// for the product: 1 + 2 gamma + u < 1 + 4 epsilon.
+/// the machine epsilon. Two planes are compared, so the error counts twice, and the product with
+/// the padding is rounded once more: 1 + 2 gamma + u < 1 + 4 epsilon.
 inline constexpr float slab_padding = 1 + 4 * std::numeric_limits<float>::epsilon();
 
-/// Hit parameters are rounded when they are found and when they are brought to steps: boxes are
-/// still entered so much behind a hit.
+/// Hit parameters are rounded when they are computed and when they are converted to steps. Boxes
+/// that begin behind a hit by up to this factor are still visited.
 inline constexpr float hit_padding = 1 + 32 * std::numeric_limits<float>::epsilon();
 
-/// Error where numbers are too small to have all digits.
+/// Absolute error where numbers are subnormal.
 inline constexpr float slab_tiny = std::numeric_limits<float>::min();
 
 namespace detail {
 
-/// Without a branch: whether a number was rounded down is as good as random.
+/// Least float that is not below x. Without a branch, which would be unpredictable: numbers are
+/// rounded down or up at random.
 inline float float_above(double x) {
   const auto nearest = static_cast<float>(x);
   const std::int32_t step = static_cast<double>(nearest) < x ? 1 : 0;
-  // A zero counts as positive. Above infinity nothing is, and numbers that are none stay so.
+  // Zero counts as positive. Infinity and NaN remain as they are.
   const std::int32_t bits = nearest == 0 ? 0 : std::bit_cast<std::int32_t>(nearest);
   return std::bit_cast<float>(bits + (bits < 0 ? -step : step));
 }
@@ -54,20 +55,20 @@ inline float float_below(double x) {
 
 }  // namespace detail
 
-/// The numbers of a ray, and how long a step is.
+/// Slab numbers of a ray, and the scale of its parameter.
 struct SlabRay {
   SlabNumbers numbers;
   double steps;  ///< number of steps that make t = 1
 
   SlabRay() = default;
-  /// Origin and direction must be finite; components of the direction may be zero (also -0), all of
-  /// them too: such a ray is a single point.
+  /// Origin and direction must be finite. Components of the direction may be zero (also -0). If all
+  /// are, the ray is a single point.
   template <class T>
   explicit SlabRay(const Ray<T>& ray) {
     const double largest = static_cast<double>(ray.direction.cwiseAbs().maxCoeff());
     int exponent = 0;
     if (largest > 0 && !(largest >= 0.5 && largest < 2)) std::frexp(largest, &exponent);
-    exponent = std::min(exponent, std::numeric_limits<double>::max_exponent - 1);  // of a number
+    exponent = std::min(exponent, std::numeric_limits<double>::max_exponent - 1);  // finite
     steps = exponent == 0 ? 1 : std::ldexp(1.0, exponent);
     for (int axis = 0; axis < 3; ++axis) {
       const double d = exponent == 0
@@ -79,13 +80,13 @@ struct SlabRay {
       if constexpr (std::is_same_v<T, float>) {
         numbers.origin_near[axis] = numbers.origin_far[axis] = ray.origin[axis];
       } else {
-        // As if the ray went up, and turned again: signs are as good as random as well.
+        // Mirrors the ray so that it goes up, and mirrors back: a branch would be unpredictable.
         const double turn = std::copysign(1.0, d), o = turn * ray.origin[axis];
         numbers.origin_near[axis] = static_cast<float>(turn) * detail::float_above(o);
         numbers.origin_far[axis] = static_cast<float>(turn) * detail::float_below(o);
       }
       numbers.inverse_near[axis] = numbers.inverse_far[axis] = static_cast<float>(inverse);
-      // Too large for float, but not without end.
+      // Inverses too large for float remain finite.
       constexpr float most = std::numeric_limits<float>::max();
       if (d != 0 && !(std::abs(numbers.inverse_near[axis]) <= most))
         numbers.inverse_near[axis] = down ? -most : most;
@@ -93,7 +94,7 @@ struct SlabRay {
     numbers.t_max = limit(static_cast<double>(ray.t_max));
   }
 
-  /// The steps beyond which boxes cannot hold anything that is met up to t.
+  /// Number of steps beyond which boxes contain no hit at t or before.
   float limit(double t) const { return static_cast<float>(t * steps) * hit_padding + slab_tiny; }
 };
 

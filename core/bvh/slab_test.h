@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The padded slab tests of core/bvh/slab_ray.h in lanes: boxes side by side. All names
-// have the type of the lanes in them, and so the instruction set: see core/math/wide.h.
+// The padded slab tests of core/bvh/slab_ray.h for several boxes in lanes. All names contain the
+// lanes' type, and so the instruction set (core/math/wide.h).
 #pragma once
 
 #include "core/bvh/bvh.h"
@@ -24,7 +24,7 @@ struct SlabInterval {
   Mask<Lanes> is_met() const { return enter <= leave * Lanes(slab_padding) + Lanes(slab_tiny); }
 };
 
-/// Returns which of a node's boxes are met up to t_max, and writes where.
+/// Returns a bit for each box of the node that is met up to t_max; writes the parameters of entry.
 template <class Lanes>
 std::uint32_t boxes_met(const BvhNode& node, const SlabNumbers& ray, float t_max,
                         float (&enters)[bvh_width]) {

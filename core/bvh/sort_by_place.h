@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sorting keys by their places on a curve, on several threads.
+// Sorts keys by their places on a curve, with several threads.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,11 @@
 
 namespace minkray {
 
-/// A place in the upper half, an index in the lower one.
+/// A place in the upper 32 bits, an index in the lower ones.
 using KeyedPlace = std::uint64_t;
 
-/// Sorts by the lowest `bits` of the upper halves, and is stable: the same for any number of
-/// threads.
+/// Sorts by the lowest `bits` bits of the places. The sort is stable: the result does not depend on
+/// the number of threads.
 void sort_by_place(FirstTouchVector<KeyedPlace>& keys, int bits);
 
 }  // namespace minkray

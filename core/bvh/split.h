@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Splitting a range of primitives in two: what builders of hierarchies differ in.
+// Splits a range of primitives in two: the step in which the builders of hierarchies differ.
 #pragma once
 
 #include <cstddef>
@@ -14,17 +14,17 @@ namespace minkray {
 struct BuildRange {
   std::size_t begin = 0, end = 0;
   int depth = 0;
-  Extent extent;  ///< known to the area splitter alone
+  Extent extent;  ///< set by the area splitter only
 
   std::size_t count() const { return end - begin; }
 };
 
 struct BuildHalves {
   BuildRange left, right;
-  int axis = 0;  ///< across which the area splitter splits
+  int axis = 0;  ///< axis of the area splitter's split
 };
 
-/// From this depth on ranges are split into halves, which takes at most 32 levels more.
+/// From this depth on, ranges are split into halves of equal count, at most 32 more levels.
 inline constexpr int free_split_depth = 46;
 
 /// Splits by the surface area heuristic in bins on each axis (Wald, "On fast Construction of
@@ -34,7 +34,7 @@ class AreaSplitter {
   explicit AreaSplitter(std::span<Primitive> primitives) : primitives_(primitives) {}
   BuildRange whole() const;
   BuildHalves split(const BuildRange& range) const;
-  /// The largest of a node's ranges by this is split next.
+  /// The range of a node with the largest weight is split next.
   static double weight(const BuildRange& range) { return range.extent.box.area(); }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Walking many rays through a hierarchy that go each their own way: some of them take turns, a node
-// each, so that the processor works on all of their steps at once (docs/decisions/many-rays.md).
+// Walks many incoherent rays through a hierarchy. Several rays take turns, one node each, so that
+// the processor works on the steps of all of them at once (docs/decisions/many-rays.md).
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace minkray {
 
-/// Largest number of pairs per call.
+/// Largest number of pairs per call of PairVisitor::visit.
 inline constexpr std::size_t most_pairs_at_once = 5 * std::size_t{bvh_width};
 
 /// Receives the pairs of rays and boxes that meet. Rounding may add some. A plain function, so
@@ -21,16 +21,16 @@ struct PairVisitor {
   void* context;
 };
 
-/// Visits the boxes that each ray meets with 0 <= t <= t_max, at least. A ray's boxes come in no
-/// particular order. Answers how many nodes were visited.
+/// Visits the boxes that each ray meets with 0 <= t <= t_max; rounding may add some. A ray's boxes
+/// come in no particular order. Returns the number of visited nodes.
 std::uint64_t walk_stream(const Bvh& bvh, std::span<SlabRay> rays, const PairVisitor& visitor,
                           WalkSet set = best_walk_set());
 
-/// SlabRay(ray) of rays in double, the same bits; only on machines that have AVX2 and FMA. The
-/// rays are `stride` bytes apart.
+/// Computes SlabRay(ray) for rays in double, with the same bits; requires AVX2 and FMA. The rays
+/// are `stride` bytes apart.
 void make_slabs_avx2(const char* rays, std::size_t stride, std::size_t count, SlabRay* slabs);
 
-/// Only on machines that have AVX2 and FMA.
+/// Same as walk_stream; requires AVX2 and FMA.
 std::uint64_t walk_stream_avx2(const BvhNode* nodes, SlabRay* rays, std::size_t count,
                                const PairVisitor& visitor);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Walking rays through a bounding volume hierarchy, near boxes first.
+// Walks rays through a bounding volume hierarchy, near boxes first.
 #pragma once
 
 #include <type_traits>
@@ -17,12 +17,12 @@ WalkSet best_walk_set();
 std::uint32_t walk(const Bvh& bvh, const SlabNumbers& ray, const BoxVisitor& visitor,
                    WalkSet set = best_walk_set());
 
-/// For walks at boxes whose contents are near anyway.
+/// Prefetches nothing: for boxes whose contents are in the cache anyway.
 struct ExpectNothing {
   void operator()(std::uint32_t) const {}
 };
 
-/// on_expected(box), as a plain function.
+/// Calls on_expected(box), as a plain function.
 template <class OnExpected>
 void expected(const void* context, std::uint32_t box) {
   (*static_cast<const OnExpected*>(context))(box);
@@ -30,7 +30,7 @@ void expected(const void* context, std::uint32_t box) {
 
 /// Calls on_box(index) for the boxes that the ray meets with 0 <= t <= t_max; rounding may add
 /// some. on_box may lower ray.numbers.t_max, and ends the walk by returning true. Returns the
-/// number of visited nodes. Calls on_expected(index) ahead for boxes that may be met soon.
+/// number of visited nodes. Calls on_expected(index) in advance for boxes that may be visited soon.
 template <class OnBox, class OnExpected = ExpectNothing>
 std::uint32_t traverse(const Bvh& bvh, const SlabRay& ray, OnBox&& on_box,
                        const OnExpected& on_expected = {}, WalkSet set = best_walk_set()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Walking through a hierarchy for each instruction set: traverse_kernel.inl compiled once with each
-// set's flags (core/CMakeLists.txt).
+// Walks through a hierarchy, one function per instruction set: traverse_kernel.inl is compiled once
+// with each set's flags (core/CMakeLists.txt).
 #pragma once
 
 #include "core/bvh/bvh.h"
@@ -13,14 +13,14 @@ struct BoxVisitor {
   /// Returns true to end the walk. May lower t_max of the ray.
   bool (*visit)(void* context, std::uint32_t box);
   void* context;
-  /// Receives boxes that may be visited soon, so that what they hold can be fetched.
+  /// Receives boxes that may be visited soon, so that their contents can be prefetched.
   void (*expect)(const void* context, std::uint32_t box);
   const void* expect_context;
 };
 
-/// Return how many nodes were visited.
+/// Returns the number of visited nodes.
 std::uint32_t walk_sse2(const BvhNode* nodes, const SlabNumbers& ray, const BoxVisitor& visitor);
-/// Only on machines that have AVX2 and FMA.
+/// Same; requires AVX2 and FMA.
 std::uint32_t walk_avx2(const BvhNode* nodes, const SlabNumbers& ray, const BoxVisitor& visitor);
 
 }  // namespace minkray

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a cylinder around the z axis that two planes cut off at any angle.
+// Finds where a line enters a cylinder around the z axis that is cut by two planes at any angles.
 #pragma once
 
 #include "core/exact/form.h"
@@ -12,7 +12,7 @@ namespace minkray::exact {
 template <class W>
 struct Cut {
   Vec3<W> normal;
-  W in, out, e;  ///< parameters at which the line enters and leaves it, and the error of both
+  W in, out, e;  ///< parameters at which the line enters and leaves it; their error
 
   Cut(const double* outward, double offset, const Line<W>& line)
       : normal(W(outward[0]), W(outward[1]), W(outward[2])) {
@@ -27,8 +27,8 @@ struct Cut {
   }
 };
 
-/// Makes ready what is declared, whose lengths alone `form` has scaled. None, where the planes
-/// cross within the cylinder by more than rounding.
+/// Completes a form from its declared sizes; `form` holds the same sizes with scaled lengths.
+/// Returns no form if the planes cross within the cylinder by more than rounding.
 inline Form cut_cylinder_form(Form form, const FormSizes& declared) {
   const double r = form.sizes[0], below = form.sizes[1], above = form.sizes[2];
   const double *low = &declared[3], *high = &declared[5];
@@ -43,8 +43,8 @@ inline Form cut_cylinder_form(Form form, const FormSizes& declared) {
   return form;
 }
 
-/// Sizes: the radius; the offsets of the lower and the upper plane; their outward normals, of unit
-/// length. R is a ball's around it.
+/// Sizes: the radius; the offsets of the lower and the upper plane; their outward unit normals. R
+/// is the radius of a ball around the form.
 template <class W>
 [[gnu::always_inline]] inline Entry<W> enter_cut_cylinder(const FormSizes& sizes, double R,
                                                           const Line<W>& line,
@@ -53,7 +53,7 @@ template <class W>
   using std::min;
   const double r = sizes[0];
   Entry<W> entry;
-  // For lines far from the ball, planes were rounded by more than E.
+  // For lines far from the ball, the rounding of planes would exceed E.
   const W reach = W(R) + W(2) * line.E;
   const Mask<W> misses_ball = open & (line.s.squaredNorm() > reach * reach);
   const Mantle<W> round(r, line, open & !misses_ball);
@@ -76,7 +76,7 @@ template <class W>
   entry.normal = select<W>(round.hit, either(low.in == t, high.in == t, side), entry.normal);
   const Mask<W> passes = round.hit & (lo > out_hi);
   if (any(passes)) {
-    // The surfaces that prove it, by their bounds.
+    // The surfaces that prove the miss, chosen by the bounds.
     const Vec3<W> entered = either(low.in - low.e == lo, high.in - high.e == lo, side);
     const Vec3<W> left =
         either(low.out + low.e == out_hi, high.out + high.e == out_hi, round.normal(1, r, line));

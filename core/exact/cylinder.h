@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a cylinder around the z axis: an endless one, between two planes.
+// Finds where a line enters a cylinder around the z axis: an infinite cylinder between two planes.
 #pragma once
 
 #include "core/exact/mantle.h"
@@ -31,7 +31,7 @@ template <class W, class S>
   const Vec3<W> side = round.normal(-1, r, line);
   entry.normal = select<W>(round.hit, select<W>(by_side, side, lid), entry.normal);
   if (any(passes)) {
-    // The planes that prove it, by their bounds.
+    // The planes that prove the miss, chosen by the bounds.
     const Vec3<W> entered = select<W>(round.in - round.e >= flat.in - flat.e, side, lid);
     const Vec3<W> left = select<W>(round.out + round.e <= flat.out + flat.e,
                                    round.normal(1, r, line), Vec3<W>(-lid));

@@ -15,8 +15,8 @@
 
 namespace minkray::exact {
 
-/// The forms that would cost the others registers if all were in one function: a second capsule and
-/// a call made spheres a fifth slower (docs/decisions/solvers.md).
+/// Forms that `enter` calls out of line: inlined, they would cost the other forms registers. A
+/// second capsule and a call made spheres a fifth slower (docs/decisions/solvers.md).
 template <class W>
 [[gnu::noinline]] Entry<W> enter_out_of_line(const Form& form, const Line<W>& line,
                                              const Mask<W>& open) {

@@ -17,24 +17,24 @@ class Polytope;
 struct Form {
   FormKind kind = FormKind::none;
   bool is_scaled = false, is_off_centre = false, is_upside_down = false;
-  double R = 0;                     ///< of a ball around the form, in its frame
+  double R = 0;                     ///< radius of a ball around the form, in its frame
   double inner_R = 0;               ///< the same before scaling
   double largest_scale = 1;         ///< the greatest of `scale`
   Vec3<double> offset = {0, 0, 0};  ///< from the form's middle to the ball's, before scaling
   Vec3<double> scale = {1, 1, 1};
-  double slope = 0;  ///< of a cone's mantle: radius by height below the apex
-  double sine = 0;   ///< of the same angle
-  /// Sizes as declared, but in balls' frames; forms with a cone have radii below and above, half
-  /// height, apex.
+  double slope = 0;  ///< radius of a cone per height below its apex
+  double sine = 0;   ///< sine of the cone's half angle
+  /// Sizes as declared, but in the form's frame; of forms with a cone: lower radius, upper radius,
+  /// half height, height of the apex.
   FormSizes sizes = {};
   std::shared_ptr<const Polytope> polytope;  ///< null for other kinds
 };
 
-/// The shape's bounding ball has this centre; `down` is what lengths are multiplied by. There is
-/// none, where no closed form holds for those sizes.
+/// `ball_centre` is the centre of the shape's bounding ball; lengths are multiplied by `down`.
+/// Returns FormKind::none if the closed form does not hold for these sizes.
 Form form_of(const ExactForm& declared, const Vec3<double>& ball_centre, double down);
 
-/// The polytope's middle is the ball's centre; null has no form.
+/// Form of a polytope, whose middle must be the bounding ball's centre. Null has no form.
 Form form_of(std::shared_ptr<const Polytope> polytope);
 
 }  // namespace minkray::exact

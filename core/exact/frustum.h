@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a frustum around the z axis, its wider disk below: an endless cone,
-// between two planes. A cone is one whose upper disk is a point.
+// Finds where a line enters a frustum around the z axis, with its larger disk below: an infinite
+// cone between two planes. A cone is a frustum whose upper disk is a point.
 #pragma once
 
 #include "core/exact/nappe.h"
@@ -34,7 +34,7 @@ template <class W, class S>
   const Vec3<W> entered = select<W>(round.in >= flat.in, side, lid);
   entry.normal = select<W>(round.hit, entered, entry.normal);
   if (any(passes)) {
-    // The planes that prove it, by their bounds.
+    // The planes that prove the miss, chosen by the bounds.
     const Vec3<W> in = select<W>(round.in - round.in_e >= flat.in - flat.e, side, lid);
     const Vec3<W> out = select<W>(round.out + round.out_e <= flat.out + flat.e,
                                   round.normal(round.out, sine, line), Vec3<W>(-lid));

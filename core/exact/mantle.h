@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters and leaves an endless cylinder around the z axis: shared by cylinders
+// Finds where a line enters and leaves an infinite cylinder around the z axis: shared by cylinders
 // and capsules.
 #pragma once
 
@@ -10,9 +10,9 @@ namespace minkray::exact {
 template <class W>
 struct Mantle {
   Mask<W> hit, miss;  ///< neither: in doubt
-  W in, out, e;       ///< the parameters, and the error of both
+  W in, out, e;       ///< parameters of entry and exit, and the error of both
   W x, y;             ///< point of the line closest to the axis
-  W half;             ///< from there to either end, a parameter
+  W half;             ///< parameter from that point to the entry or exit
 
   template <class S>
   Mantle(const S& size, const Line<W>& line, const Mask<W>& open) {
@@ -34,7 +34,7 @@ struct Mantle {
     out = k + half;
     e = line.E * r * inv / half;
   }
-  /// Outward, of unit length, where the line enters or (sign = 1) leaves.
+  /// Outward unit normal where the line enters (sign = -1) or leaves (sign = 1).
   template <class S>
   Vec3<W> normal(int sign, const S& r, const Line<W>& line) const {
     const W at = half * W(Lane<W>(sign)), per_r = W(1) / W(r);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters and leaves an endless cone around the z axis, below its apex: shared
+// Finds where a line enters and leaves an infinite cone around the z axis, below its apex: shared
 // by frustums and tapered capsules.
 #pragma once
 
@@ -7,16 +7,18 @@
 
 namespace minkray::exact {
 
-/// A parameter beyond all that matter, whose products with a line's numbers are numbers.
+/// Parameter greater than all that matter, but small enough that its products with a line's
+/// coordinates do not overflow.
 template <class W>
 inline constexpr Lane<W> endless = 1 / least_to_square<Lane<W>>;
 
-/// x^2 + y^2 <= slope^2 (apex - z)^2, z <= apex. R is that of the form, which lies within 2 R of
-/// the apex or within twice the apex' own height.
+/// x^2 + y^2 <= slope^2 (apex - z)^2, z <= apex. R is the form's radius. The form lies within
+/// 2 max(R, apex) of the apex.
 template <class W>
 struct Nappe {
-  Mask<W> hit, miss;       ///< of the cone above and below the apex; neither: in doubt
-  W in, in_e, out, out_e;  ///< the parameters, and their errors; of what has no end, `endless`
+  Mask<W> hit, miss;       ///< of both nappes, above and below the apex; neither: in doubt
+  W in, in_e, out, out_e;  ///< parameters of entry and exit, and their errors; -endless or
+                           ///< endless if there is no entry or exit
 
   template <class S>
   Nappe(const S& slope, const S& apex, const S& R, const Line<W>& line, const Mask<W>& open)
@@ -39,7 +41,8 @@ struct Nappe {
     hit = open & (D > margin);
     miss = open & (D < -margin);
     a_ = d.x() * d.x() + d.y() * d.y() - square * d.z() * d.z();
-    const Mask<W> is_flat = a_ > W(0);  // the line, so that both ends are of one nappe
+    // The line is less steep than the mantle: it enters and leaves the same nappe.
+    const Mask<W> is_flat = a_ > W(0);
     const W a = select(is_flat, a_, min(a_, W(-least_component<W>)));
     const W b = p.x() * d.x() + p.y() * d.y() - square * p.z() * d.z();
     const W c = p.x() * p.x() + p.y() * p.y() - square * p.z() * p.z();
@@ -48,7 +51,8 @@ struct Nappe {
     const W per_R = length * (W(1) / W(R)), base = W(2) * size * (W(1) + square) * line.E / root;
     const W w1 = W(1) + abs(t1) * per_R, w2 = W(1) + abs(t2) * per_R;
     const W e1 = base * w1 * w1, e2 = base * w2 * w2;
-    // A steep line has an end in each nappe: downwards it enters this one at the later.
+    // A steep line crosses the mantle once in each nappe: downwards, it enters this one at the
+    // greater parameter; upwards, it leaves this one at the lesser.
     const Mask<W> first = t1 < t2, down = d.z() < W(0), enters = is_flat | down,
                   leaves = is_flat | !down;
     const Mask<W> in_first = (is_flat & first) | ((!is_flat) & !first);
@@ -58,7 +62,7 @@ struct Nappe {
     out_e = select(leaves, select(in_first, e2, e1), W(0));
   }
 
-  /// Outward, of unit length, at the parameter t.
+  /// Outward normal of unit length at the parameter t.
   template <class S>
   Vec3<W> normal(const W& t, const S& sine, const Line<W>& line) const {
     using std::max;
@@ -68,14 +72,14 @@ struct Nappe {
     return {x * per, y * per, W(sine)};
   }
 
-  /// Lines whose ends are both those of the nappe above the apex, which is none of the form's.
+  /// True for lines that enter and leave the nappe above the apex, which is not part of the form.
   template <class S>
   Mask<W> is_above(const S& apex, const Line<W>& line) const {
     return hit & (a_ > W(0)) & (line.s.z() + out * line.d.z() > W(apex));
   }
 
-  /// The line misses both nappes, or crosses the upper one: this is the normal of a plane along it
-  /// that touches the cone.
+  /// For a line that misses both nappes or crosses only the upper one: the normal of the plane that
+  /// touches the cone and is parallel to the line.
   Vec3<W> separating(const Line<W>& line) const {
     using std::copysign;
     using std::max;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a rounded box around the origin. The slabs of the box divide space
-// into a face's, an edge's or a corner's share: the line is followed from where it enters the box
-// grown by the radius, through the shares, to the first whose plane, cylinder or ball it enters
-// there.
+// Finds where a line enters a rounded box around the origin. The slabs of the inner box divide
+// space into shares: the regions of faces, edges and corners. From where the line enters the box
+// grown by the radius, it is followed through the shares to the first one whose plane, cylinder or
+// ball it enters there.
 #pragma once
 
 #include "core/exact/ball.h"
@@ -17,10 +17,10 @@ template <class W, class Sizes>
   using std::max;
   using std::min;
   using std::sqrt;
-  // A line passes three pairs of planes.
+  // A line crosses at most three pairs of planes.
   constexpr int most_shares = 7;
   const W r(sizes[3]);
-  // Mirrored, so that the line runs towards +x, +y, +z.
+  // The line is mirrored so that it runs towards +x, +y, +z.
   Vec3<W> sign, d, s, inv, first, last, e;
   for (int i = 0; i < 3; ++i) {
     const W grown = W(sizes[static_cast<std::size_t>(i)]) + r;
@@ -50,7 +50,7 @@ template <class W, class Sizes>
   Mask<W> going = open & (hi <= out_lo);
   if (!any(going)) return entry;
 
-  // A face's share: of the two other slabs, the line is within both.
+  // In a face's share, the line is within both other slabs.
   const W t = largest(first);
   const Mask<W> by_x = first.x() == t, by_y = (first.y() == t) & !by_x, by_z = !(by_x | by_y);
   const auto beyond = [&](int i, const Mask<W>& is_face) {
@@ -62,15 +62,15 @@ template <class W, class Sizes>
   entry.t = t;
   entry.e = select(by_x, e.x(), select(by_y, e.y(), e.z()));
   entry.normal = select<W>(by_face, Vec3<W>(-axis(by_x, by_y)), entry.normal);
-  // Near a share's end the next one's surface is as far apart as the square of the way there: no
-  // doubt, unless that is more than E r (core/exact/capsule.h).
+  // At a distance w from the end of a share, the surface of the next one is about w^2 / 2r away. In
+  // doubt only if w^2 > E r (core/exact/capsule.h).
   const W area = r * line.E;
   const W w2 = entry.e * entry.e * line.dd;
   entry.hit = by_face & !((w2 > area) & (outside * outside < w2));
   going &= !by_face;
   if (!any(going)) return entry;
 
-  Vec3<W> begins, ends;  // of the box's own slabs
+  Vec3<W> begins, ends;  // parameters of the slabs of the inner box
   for (int i = 0; i < 3; ++i) {
     const W h(sizes[static_cast<std::size_t>(i)]);
     begins[i] = (-h - s[i]) * inv[i];
@@ -78,7 +78,7 @@ template <class W, class Sizes>
   }
   W from = t;
   for (int share = 0; share < most_shares && any(going); ++share) {
-    // The share that begins at `from`: of the axes whose slab the line is not in.
+    // The share that begins at `from`, given by the axes whose slab does not contain the line.
     W until(std::numeric_limits<Lane<W>>::infinity());
     Vec3<W> p, along;
     for (int i = 0; i < 3; ++i) {
@@ -105,7 +105,7 @@ template <class W, class Sizes>
     const Vec3<W> outward = select<W>(hit, Vec3<W>((x - along * half) * (W(1) / r)), x);
     entry.normal = select<W>(hit | miss, Vec3<W>(outward.cwiseProduct(sign)), entry.normal);
     if (share == 0 && any(miss)) {
-      // A line that goes away from the box already where it enters the grown one.
+      // A line that already moves away from the inner box where it enters the grown one.
       const Mask<W> recedes = miss & (k < from);
       const Vec3<W> there = (p + along * from).cwiseProduct(sign);
       const Vec3<W> separating = between(Vec3<W>(-axis(by_x, by_y)), there, line.d);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a tapered capsule along the z axis, its larger ball below: the mantle
-// of the cone that touches both balls, or the ball at the end beyond which the line would meet the
-// cone.
+// Finds where a line enters a tapered capsule along the z axis, with its larger ball below: on the
+// mantle of the cone that touches both balls or, if the line enters the cone beyond an end, on the
+// ball at that end.
 #pragma once
 
 #include "core/exact/ball.h"
@@ -23,7 +23,7 @@ template <class W, class S>
   entry.miss = round.miss;
   if (any(round.miss)) entry.normal = round.separating(line);
   if (!any(round.hit)) return entry;
-  // The circles where the cone touches the balls.
+  // Heights of the circles where the cone touches the balls.
   const W low(-half_height + lower * sine), high(half_height + upper * sine);
   const W z = s.z() + round.in * d.z();
   const Mask<W> below = z<low, above = z> high;
@@ -33,7 +33,7 @@ template <class W, class S>
   entry.e = W(2) * round.in_e;
   if (any(by_side))
     entry.normal = select<W>(by_side, round.normal(round.in, sine, line), entry.normal);
-  // As at a capsule (core/exact/capsule.h).
+  // In doubt as for a capsule (core/exact/capsule.h).
   const W w2 = entry.e * entry.e * line.dd;
   const W from_low = z - low, from_high = z - high;
   const Mask<W> unsure =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a capsule along any axis: the one along z, after a turn.
+// Finds where a line enters a capsule along any axis: rotates the line to a capsule along z.
 #pragma once
 
 #include "core/exact/capsule.h"
@@ -7,12 +7,12 @@
 
 namespace minkray::exact {
 
-/// The form's sizes become radius, half height, and the capsule's own z and x axes. Sizes that were
-/// declared are half the way from end to end, and the radius.
+/// Converts declared sizes (half the vector from end to end, radius) to radius, half height, and
+/// the capsule's z and x axes.
 Form turned_capsule_form(Form form);
 
-/// Turns round by less than 10 * 2^-53 of the capsule's size, and its middle by 10 more: lines in
-/// double are known to 16 of these.
+/// Rotation rounds by less than 10 * 2^-53 of the capsule's size, and by 10 more for its middle. E
+/// of a line in double is at least 16 * 2^-53 of the size.
 template <class W>
 [[gnu::always_inline]] inline Entry<W> enter_turned_capsule(const FormSizes& a, const Line<W>& line,
                                                             const Mask<W>& open) {

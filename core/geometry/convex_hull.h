@@ -28,15 +28,15 @@ struct Polygons {
   }
 };
 
-/// A frame in which a set of points is about as wide as high as deep: its axes are orthogonal, the
-/// first along the longest extent. Hulls are affine invariant, so they may be found in it.
+/// A frame in which a set of points has about equal extents. The axes are orthogonal, the first
+/// along the longest extent. Hulls are affine invariant, so they may be computed in this frame.
 struct RoundFrame {
   Vec3<double> origin = Vec3<double>::Zero();    ///< one of the points
   Mat3<double> axes = Mat3<double>::Identity();  ///< columns of unit length
   Vec3<double> extents = Vec3<double>::Ones();   ///< along the axes; 1 beyond the rank
   int rank = 0;  ///< 3 solid, 2 in a plane, 1 on a line, 0 a single point
 
-  /// The point in the frame: the set spans about [-1, 1] along each axis.
+  /// Converts a point to the frame, where the set spans about [-1, 1] along each axis.
   Vec3<double> to_frame(const Vec3<double>& point) const {
     return (axes.transpose() * (point - origin)).cwiseQuotient(extents);
   }
@@ -45,25 +45,25 @@ struct RoundFrame {
   }
 };
 
-/// The frame of at least one finite point. Extents up to `flatness` times the largest, or within
-/// the rounding of the coordinates, count as none.
+/// Returns the frame of one or more finite points. Extents up to `flatness` times the largest, or
+/// within the rounding of the coordinates, count as zero.
 RoundFrame round_frame(std::span<const Vec3<double>> points, double flatness = 0);
 
 struct ConvexHull {
   RoundFrame frame;
   /// The extreme points, as ascending indices into the input. Equal points are kept once.
   std::vector<std::uint32_t> vertices;
-  /// Rank 3: the facets, counter-clockwise from outside, neighbours in one plane merged. Rank 2:
+  /// Rank 3: the facets, counter-clockwise from outside, with coplanar neighbours merged. Rank 2:
   /// the polygon, once. Corners are positions in `vertices`.
   Polygons facets;
 
   int rank() const { return frame.rank; }
 };
 
-/// The hull of at least one finite point. A set thinner than the rounding of its coordinates
-/// counts as flat; other than that a point is dropped only if it lies in the hull of the others,
-/// or within rounding of it. Throws std::runtime_error if Qhull fails, or if the points' distances
-/// exceed the range of numbers.
+/// Returns the hull of one or more finite points. A set thinner than the rounding of its
+/// coordinates counts as flat. Otherwise a point is dropped only if it lies in the hull of the
+/// others, or within rounding of it. Throws std::runtime_error if Qhull fails, or if the points'
+/// distances exceed the range of numbers.
 ConvexHull convex_hull(std::span<const Vec3<double>> points);
 
 /// The points x with normal.x <= offset.
@@ -72,9 +72,9 @@ struct HalfSpace {
   double offset;
 };
 
-/// The vertices of a bounded intersection of half-spaces that all hold `interior` well inside;
-/// those that touch it nowhere are legal. Throws std::runtime_error if Qhull fails or it is not
-/// bounded.
+/// Returns the vertices of a bounded intersection of half-spaces, which must all contain `interior`
+/// well inside. Half-spaces that do not touch the intersection are allowed. Throws
+/// std::runtime_error if Qhull fails or the intersection is not bounded.
 std::vector<Vec3<double>> intersection_vertices(std::span<const HalfSpace> half_spaces,
                                                 const Vec3<double>& interior);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Directions, sorted into the cells of a grid on the faces of a cube around the origin.
+// Sorts directions into the cells of a grid on the faces of a cube around the origin.
 #pragma once
 
 #include <cmath>
@@ -12,12 +12,12 @@ namespace minkray {
 class CubeMap {
  public:
   struct Cell {
-    int axis;            ///< of the face: of the largest component
-    double sign;         ///< the side of the face
+    int axis;            ///< axis of the face: that of the largest component
+    double sign;         ///< sign of that component
     double u, v, width;  ///< from u to u + width in the component after `axis`, v in the next one
   };
 
-  /// Makes about this many cells, and no more than float can count.
+  /// Makes about this many cells, but no more than float can count.
   explicit CubeMap(double about_cells)
       : resolution_(static_cast<std::size_t>(
             std::ceil(std::sqrt(std::min(std::max(about_cells, 1.0), most_cells) / 6)))) {}
@@ -32,8 +32,8 @@ class CubeMap {
             -1 + width * static_cast<double>(cell % resolution_), width};
   }
 
-  /// The index of the cell of the direction n, of any length: a whole number. Up to a few roundings
-  /// at the cells' edges; NaN gets some cell.
+  /// Returns the index, an integer, of the cell of a direction n of any length; up to a few
+  /// roundings at the cells' edges. NaN gets any cell.
   template <class W>
   W cell_of(const Vec3<W>& n) const {
     using std::abs;
@@ -47,7 +47,7 @@ class CubeMap {
     const W side = W(static_cast<T>(resolution_)), last = side - W(1);
     const auto index = [&](const W& component) {
       W scaled = (component / size + W(1)) * (W(T(0.5)) * side);
-      scaled = select(scaled > W(0), scaled, W(0));  // in this order: NaN falls to 0
+      scaled = select(scaled > W(0), scaled, W(0));  // in this order: NaN becomes 0
       return whole(select(scaled < last, scaled, last));
     };
     const W face = by_axis(W(0), W(2), W(4)) + select(largest < W(0), W(1), W(0));

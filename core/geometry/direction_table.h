@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Lists which of a polytope's vertices can be its support point, by direction: a cube map whose
 // cells list the vertices with a normal cone that meets the cell. A query reads one short list
-// instead of all vertices; unlike hill climbing it has no steps that wait for each other, cannot
-// stall where rounding has left the polytope dented, and needs no vertex adjacency.
+// instead of all vertices; unlike hill climbing, it has no dependent steps, cannot stall where
+// rounding has left the polytope dented, and needs no vertex adjacency.
 #pragma once
 
 #include <cstdint>
@@ -20,14 +20,14 @@ class DirectionTable {
   /// The hull has rank 2 or 3; `vertices` are its vertices in order.
   DirectionTable(const ConvexHull& hull, std::span<const Vec3<double>> vertices);
 
-  /// The index of the cell of n: a whole number. NaN gets some cell.
+  /// Returns the index, an integer, of the cell of n. NaN gets any cell.
   template <class W>
   W cell_of(const Vec3<W>& n) const {
     return directions_.cell_of(times<W>(Mat3<Lane<W>>(to_frame_.template cast<Lane<W>>()), n));
   }
 
-  /// Indices of vertices, never empty, with one among them that maximises n.x for all directions n
-  /// of the cell.
+  /// Returns indices of vertices, at least one. For each direction n of the cell, one of the
+  /// vertices maximises n.x.
   std::span<const std::uint32_t> candidates(std::size_t cell) const {
     return {lists_.data() + begin_[cell], lists_.data() + begin_[cell + 1]};
   }
@@ -42,7 +42,7 @@ class DirectionTable {
   /// size even if the hull is a needle: n.p = m.q + constant for m = extents * axes^T n.
   Mat3<double> to_frame_;
   CubeMap directions_;
-  std::vector<std::uint32_t> begin_;  ///< per cell, where its list begins in lists_
+  std::vector<std::uint32_t> begin_;  ///< per cell, begin of its list in lists_
   std::vector<std::uint32_t> lists_;
 };
 

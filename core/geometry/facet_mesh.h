@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The triangles of a polytope's surface and how they hang together, so that a line's way through
-// the polytope can be found by walking from triangle to triangle.
+// The triangles of a polytope's surface and their adjacency, so that a walk from triangle to
+// triangle finds where a line enters the polytope.
 #pragma once
 
 #include <algorithm>
@@ -16,15 +16,15 @@
 
 namespace minkray {
 
-/// Polygons are cut into fans of triangles. All that a step of a walk needs lies together, as
-/// numbers that packets of rays read a row at a time.
+/// Polygons are split into fans of triangles. The data of one step of a walk are adjacent, as
+/// numbers that packets of rays read one row at a time.
 template <class T>
 class FacetMesh {
  public:
   class Facet {
    public:
-    /// First index of the numbers of three corners, of three neighbours, of the normal, and of a 1
-    /// if the facet is supported.
+    /// Indices of the first number of the three corners, of the three neighbours, of the normal,
+    /// and of the flag that is 1 if the facet is supported.
     static constexpr std::size_t corners = 0, neighbours = 9, normals = 12, supported = 15;
     static constexpr std::size_t size = 16;
 
@@ -39,13 +39,13 @@ class FacetMesh {
     std::size_t neighbour(std::size_t k) const {
       return static_cast<std::size_t>(numbers_[neighbours + k]);
     }
-    /// No vertex of the hull reaches further along the normal than corner 0, nor do the other
-    /// corners reach less but for rounding, and the facet is thick enough that rounding does not
-    /// decide whether a line passes through it.
+    /// True if no vertex of the hull reaches further along the normal than corner 0, the other
+    /// corners reach as far up to rounding, and the facet is so thick that rounding does not decide
+    /// if a line passes through it.
     bool is_supported() const { return numbers_[supported] != T(0); }
 
-    /// The facet is rounded to U; whether it is supported is not known then. Where U is more
-    /// precise, the normal is found again, since this one is rounded to T.
+    /// Rounds the facet to U; the result does not count as supported. If U is more precise, the
+    /// normal is computed again, since this one is rounded to T.
     template <class U>
     typename FacetMesh<U>::Facet cast() const {
       typename FacetMesh<U>::Facet converted;
@@ -67,7 +67,7 @@ class FacetMesh {
     void find_normal();
     /// The least height of the triangle.
     T thickness() const;
-    /// Corner k becomes corner 0.
+    /// Rotates the corners so that corner k becomes corner 0.
     void turn(std::size_t k);
 
     alignas(4 * sizeof(T)) std::array<T, size> numbers_ = {};
@@ -86,8 +86,8 @@ class FacetMesh {
     return converted;
   }
 
-  /// Finds out which facets are supported, and by which corner: furthest(n) is the hull's support
-  /// point in direction n.
+  /// Determines which facets are supported, and by which corner; furthest(n) must return the hull's
+  /// support point in direction n.
   template <class Furthest>
   void find_supported(Furthest&& furthest) {
     T largest(0);
@@ -106,8 +106,8 @@ class FacetMesh {
     }
   }
 
-  /// False for a hull that is thinner than the rounding of its points: for a line, its facets are
-  /// rounding alone.
+  /// False for a hull that is thinner than the rounding of its points: its facets consist of
+  /// rounding only.
   bool is_supported() const {
     return std::any_of(facets_.begin(), facets_.end(),
                        [](const Facet& facet) { return facet.numbers_[Facet::supported] > T(0); });
@@ -116,14 +116,15 @@ class FacetMesh {
   const Facet& operator[](std::size_t i) const { return facets_[i]; }
   std::size_t size() const { return facets_.size(); }
 
-  /// The index of a facet whose normal is near the direction n, of any length. NaN gets some facet.
+  /// Returns the index of a facet whose normal is near the direction n, of any length. NaN gets any
+  /// facet.
   template <class W>
   W facing(const Vec3<W>& n) const {
     return lookup<W>(directions_.cell_of(n),
                      [&](std::size_t cell) { return static_cast<T>(facing_[cell]); });
   }
 
-  /// `count` numbers of each lane's facet, beginning with number `first`.
+  /// Returns `count` numbers of each lane's facet, beginning with number `first`.
   template <std::size_t first, std::size_t count, class W>
   std::array<W, count> numbers(const W& facet) const {
     static_assert(sizeof(Facet) == Facet::size * sizeof(T));
@@ -139,7 +140,7 @@ class FacetMesh {
   friend class FacetMesh;
   FacetMesh() = default;
 
-  /// Multiples of the largest coordinate: a few roundings of a reach, and many of a corner's place
+  /// In units of the largest coordinate: a few roundings of a reach, and many of a corner's place
   /// in the ray's frame.
   static constexpr T uneven = 16 * std::numeric_limits<T>::epsilon();
   static constexpr T thin = 64 * std::numeric_limits<T>::epsilon();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The points whose convex hull a shape is. Making one keeps just the extreme points.
+// Points whose convex hull is a shape. Keeps only the extreme points.
 #pragma once
 
 #include <concepts>
@@ -18,19 +18,20 @@ template <class T>
 class PointCloud {
  public:
   PointCloud() = default;
-  /// All points are finite, and there is one; `source` names the mesh file they came from, if any.
+  /// Requires at least one point; all points must be finite. `source` is the name of their mesh
+  /// file, if any.
   explicit PointCloud(std::vector<Vec3<T>> points, std::string source = {});
 
   /// The extreme points, in the order in which they were given.
   const std::vector<Vec3<T>>& points() const { return *points_; }
   const std::string& source() const { return source_; }
 
-  /// Null if the hull is flat, or as thin as rounding. The normals are those of the points before
-  /// they were rounded to T.
+  /// Null if the hull is flat up to rounding. The normals are those of the points before they were
+  /// rounded to T.
   const FacetMesh<T>* facets() const { return facets_.get(); }
 
-  /// The points are rounded to U. Data computed from the points is shared rather than computed
-  /// again: the support stays a maximum up to the rounding of the points.
+  /// Rounds the points to U. Data computed from the points is shared, not computed again: support
+  /// points remain maximal up to the rounding of the points.
   template <class U>
   PointCloud<U> cast() const {
     PointCloud<U> converted;
@@ -49,7 +50,7 @@ class PointCloud {
     return support_where(Mask<W>(true), n);
   }
 
-  /// Answers in the lanes that `wanted` names; in others with any of the points.
+  /// Returns support points in the `wanted` lanes, and any of the points in others.
   template <class W>
   Vec3<W> support_where(const Mask<W>& wanted, const Vec3<W>& n) const {
     if constexpr (std::floating_point<W>)
@@ -67,14 +68,14 @@ class PointCloud {
   template <class U>
   friend class PointCloud;
 
-  /// The index of a point furthest along n, a direction of this cell of the table's, if there is a
+  /// Returns the index of a point furthest along n; `cell` is the table's cell of n, if there is a
   /// table. Not inline: packets of every instruction set call it.
   std::size_t furthest(const Vec3<T>& n, T cell) const;
 
-  /// These, which know now where they touch the hull; null if none of them does.
+  /// Returns the facets with their supporting corners; null if no facet is supported.
   std::shared_ptr<const FacetMesh<T>> with_supports(FacetMesh<T> facets) const;
 
-  /// The table has a list for each lane of its own.
+  /// Uses the table: each lane has its own list.
   template <class W>
   Vec3<W> furthest_by_lane(const Mask<W>& wanted, const Vec3<W>& n) const {
     const W cell = table_->cell_of(n);
@@ -84,7 +85,7 @@ class PointCloud {
     });
   }
 
-  /// This is for few points: the scan of one lane is that of all.
+  /// For few points: scans all points for all lanes at once.
   template <class W>
   Vec3<W> furthest_of_all(const Vec3<W>& n) const {
     Vec3<W> best = widen<W>(points_->front());
@@ -100,7 +101,7 @@ class PointCloud {
   }
 
   std::shared_ptr<const std::vector<Vec3<T>>> points_;
-  std::shared_ptr<const DirectionTable> table_;  ///< none for few points, which are scanned faster
+  std::shared_ptr<const DirectionTable> table_;  ///< null for few points: a scan is faster
   std::shared_ptr<const FacetMesh<T>> facets_;   ///< of solid hulls
   std::string source_;
 };

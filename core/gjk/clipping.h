@@ -23,14 +23,15 @@ struct Clip {
   bool rejects;  ///< no part of the ray is left
 };
 
-/// The remaining part of a ray. Numbers are RayNearBall's: lengths from the closest approach.
+/// The remaining part of a ray. Parameters are those of RayNearBall: lengths from the closest
+/// approach.
 template <class T>
 class ClippedRay {
  public:
   explicit ClippedRay(const RayNearBall<T>& ray)
       : s_(ray.s), r_(ray.r), lower_(ray.lambda_min), upper_(ray.lambda_max) {}
 
-  /// The hit point, if there is one, lies between the two.
+  /// Bounds of the hit point's parameter, if there is a hit point.
   T lower() const { return lower_; }
   T upper() const { return upper_; }
 

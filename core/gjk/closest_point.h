@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The point of a simplex closest to the origin, and the vertices that carry it: what Johnson's
-// distance subalgorithm answers, computed by projections instead of determinants, which stay
+// The point of a simplex closest to the origin, and the vertices that carry it: the result of
+// Johnson's distance subalgorithm, but computed by projections. Unlike determinants, they stay
 // accurate for the small and sliver-like simplices near the end of a cast.
 #pragma once
 
@@ -58,18 +58,18 @@ ClosestPoint<T> closest_on_edge(const SimplexPoints<T>& simplex, int i, int j) {
   ClosestPoint<T> result;
   result.weights[ib] = towards_b / squared;
   result.weights[ia] = towards_a / squared;
-  // From the nearer end, so that the product that is rounded is the smaller one.
+  // Starts from the nearer end, so that the rounded product is the smaller one.
   result.v = towards_b < towards_a ? Vec3<T>(a + result.weights[ib] * edge)
                                    : Vec3<T>(b - result.weights[ia] * edge);
-  // Made orthogonal to the edge once more: where v is short its direction is dominated by
-  // rounding, and its support point would be a vertex that is already here.
+  // Makes v orthogonal to the edge once more: the direction of a short v is dominated by rounding,
+  // and its support point would be a vertex that the simplex already has.
   result.v -= (result.v.dot(edge) / squared) * edge;
   result.kept = (1u << i) | (1u << j);
   return result;
 }
 
-/// A normal of face abc, from its two shorter edges: the differences of neighbouring vertices are
-/// exact, and their product has lost no digits to cancellation.
+/// A normal of face abc, from its two shorter edges: differences of close vertices are exact, so
+/// their cross product loses no digits to cancellation.
 template <class T>
 Vec3<T> face_normal(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c) {
   const Vec3<T> ab = b - a, bc = c - b, ca = a - c;
@@ -78,7 +78,7 @@ Vec3<T> face_normal(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c) {
   return bc2 >= ca2 ? ca.cross(ab) : ab.cross(bc);
 }
 
-/// Whichever of a, b and c is nearest to a point.
+/// Returns the one of a, b and c that is nearest to a point.
 template <class T>
 const Vec3<T>& nearest_of(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c,
                           const Vec3<T>& point) {
@@ -87,11 +87,11 @@ const Vec3<T>& nearest_of(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c,
   return to_a <= to_b && to_a <= to_c ? a : (to_b <= to_c ? b : c);
 }
 
-/// The weights by Gram-Schmidt along the longest edge first: the triangles at the end of a cast on
-/// a cone or a cylinder are slivers, whose determinants have lost the digits that this order keeps.
+/// Computes the weights by Gram-Schmidt, beginning with the longest edge. Triangles at the end of a
+/// cast at a cone or a cylinder are slivers: this order keeps digits that determinants lose.
 template <class T>
 ClosestPoint<T> closest_on_face(const SimplexPoints<T>& simplex, int i, int j, int k) {
-  // P and Q end the longest edge, P on the side of the shortest; S is the third vertex.
+  // P and Q are the ends of the longest edge, P is also one of the shortest; S is the third vertex.
   const auto y = [&](int index) -> const Vec3<T>& {
     return simplex.y[static_cast<std::size_t>(index)];
   };
@@ -110,15 +110,15 @@ ClosestPoint<T> closest_on_face(const SimplexPoints<T>& simplex, int i, int j, i
     const T weight_S = -from_origin.dot(across) / across_squared;
     const T weight_Q = origin_along_e - weight_S * f_along_e;
     const T weight_P = T(1) - weight_Q - weight_S;
-    // If vertices lie in a line, the direction across it is dominated by rounding: the edges
-    // suffice.
+    // If the vertices are collinear, the direction across their line is dominated by rounding, and
+    // the edges suffice.
     const Vec3<T> zero = Vec3<T>::Zero(), normal = face_normal(y(P), y(Q), y(S));
     const bool is_flat =
         !(normal.squaredNorm() >
           tolerance::collinear<T> * tolerance::collinear<T> * e_squared * f.squaredNorm());
     if (!is_flat && weight_P > T(0) && weight_Q > T(0) && weight_S > T(0)) {
       ClosestPoint<T> result;
-      // Along the plane's normal, so that v keeps its direction however short it is.
+      // Computed along the plane's normal, so that even a short v has the right direction.
       const T height = normal.dot(nearest_of(y(P), y(Q), y(S), zero));
       result.v = normal * (height / normal.squaredNorm());
       result.weights[static_cast<std::size_t>(P)] = weight_P;
@@ -135,8 +135,8 @@ ClosestPoint<T> closest_on_face(const SimplexPoints<T>& simplex, int i, int j, i
   return best;
 }
 
-/// The origin lies on the far side of face ijk from vertex l, or the tetrahedron is too flat to
-/// decide.
+/// True if the plane of face ijk separates the origin from vertex l, or if the tetrahedron is too
+/// flat to decide.
 template <class T>
 bool beyond_face(const SimplexPoints<T>& simplex, int i, int j, int k, int l) {
   const auto y = [&](int index) -> const Vec3<T>& {
@@ -147,7 +147,8 @@ bool beyond_face(const SimplexPoints<T>& simplex, int i, int j, int k, int l) {
   const T height_of_vertex = normal.dot(y(l) - nearest_of(y(i), y(j), y(k), y(l)));
   const T height_of_origin = -normal.dot(nearest_of(y(i), y(j), y(k), zero));
   // A height within the rounding of its vertex has no sign: the four points are in one plane (for
-  // example, the support of an octahedron's face is its middle) and enclose nothing.
+  // example, if the support point of an octahedron's face is the face's middle) and enclose
+  // nothing.
   const T size = std::max({y(i).cwiseAbs().maxCoeff(), y(j).cwiseAbs().maxCoeff(),
                            y(k).cwiseAbs().maxCoeff(), y(l).cwiseAbs().maxCoeff()});
   const T rounding = tolerance::flat_simplex<T> * size * normal.norm();
@@ -168,7 +169,7 @@ ClosestPoint<T> closest_on_tetrahedron(const SimplexPoints<T>& simplex) {
     keep_closer(best, best_squared, closest_on_face(simplex, 1, 2, 3));
   if (best.kept != 0) return best;
 
-  // Inside all four faces: the tetrahedron holds the origin.
+  // Inside all four faces: the tetrahedron contains the origin.
   const auto volume = [&](const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c) {
     return std::abs(a.dot(b.cross(c)));
   };

@@ -17,8 +17,9 @@
 
 namespace minkray {
 
-/// The least parameter at which the ray lies in the shape, as gjk_ray_cast finds it. `iterations`
-/// counts the paper's, `supports` all that the nested queries made; so does `max_supports`.
+/// Returns the least parameter at which the ray is in the shape, as gjk_ray_cast does. `iterations`
+/// counts iterations of Algorithm 1; `supports` and `max_supports` count the support points of all
+/// nested queries.
 template <class T, class S, class Observer = NoObserver>
 requires SupportMapped<S, T> CastResult<T> first_solution(
     const S& shape, const RayNearBall<T>& near, const Ball<T>& ball,
@@ -66,10 +67,10 @@ requires SupportMapped<S, T> CastResult<T> first_solution(
     const DistanceResult<T, 3> closest = gjk_distance<T, 3>(supports, x, ball.radius, nested);
     result.supports += closest.supports;
     const Vec3<T>& c = closest.point_a;
-    // x is close enough to c; this includes x inside, at the beginning.
+    // True if x is close enough to c, or inside the object at the beginning.
     const bool is_close = closest.status == DistanceStatus::overlapping ||
                           closest.distance <= tolerance::gjk_rounding<T> * ball.radius;
-    // The nested query's best plane instead of |n|^2: never beyond the object.
+    // The nested query's best plane replaces the plane through c: it never cuts into the object.
     const Vec3<T> axis = closest.axis;
     observer(CastIteration<T>{lambda, x, axis, c, x - c, {}});
     if (is_close) return finish();
@@ -80,12 +81,13 @@ requires SupportMapped<S, T> CastResult<T> first_solution(
     const T axis_r = axis.dot(r);
     const T clipped = lambda - closest.lower / axis_r;
     if (!(axis_r < T(0))) {
-      // Behind x the plane that clipped last keeps off, or the ball's, where the cast began.
+      // The ray before x is separated by the plane that clipped last or, if none did, by the ball's
+      // tangent plane at the start of the cast.
       if (from_origin && !has_advanced) return miss(axis);
       return miss(joined_plane(axis, has_advanced ? n : x, r));
     }
     if (clipped > near.lambda_max) return miss(axis);
-    // The advance is too small for lambda: as close as rounding allows.
+    // The advance is too small to change lambda: x is as close as rounding allows.
     if (!(clipped > lambda)) return finish();
     lambda = clipped;
     n = axis;

@@ -26,15 +26,16 @@ struct DistanceOptions {
   /// Relative; see tolerance::distance_gap.
   T gap = tolerance::distance_gap<T>;
   int max_iterations = tolerance::distance_max_iterations;
-  /// A direction from A to B to begin with, such as the previous frame's axis; zero for none.
+  /// Initial direction from A to B, such as the previous frame's axis; zero for none.
   Vec<T, Dim> v0 = Vec<T, Dim>::Zero();
-  /// Only whether the two are separated: ends at the first plane between them, and the distance is
-  /// then just a lower bound (the paper's "separating-axis variant").
+  /// True to decide only if the objects are separated: ends at the first separating plane, with a
+  /// lower bound but no distance (the paper's "separating-axis variant").
   bool only_separation = false;
 };
 
-/// `supports(v)` gives SupportPair<T, Dim>, A and B each about its own centre; x leads from A's
-/// centre to B's; `radius` bounds |a - b|. The answer's points are relative to A's centre.
+/// `supports(v)` returns SupportPair<T, Dim>, each point relative to its object's centre. x is the
+/// vector from A's centre to B's; `radius` bounds |a - b|. Points of the result are relative to A's
+/// centre.
 template <class T, int Dim, class Supports, class G = ProjectionSubalgorithm<T, Dim>,
           class Observer = NoObserver>
 DistanceResult<T, Dim> gjk_distance(const Supports& supports, const Vec<T, Dim>& x, T radius,
@@ -54,8 +55,8 @@ DistanceResult<T, Dim> gjk_distance(const Supports& supports, const Vec<T, Dim>&
 
   const auto finish = [&](DistanceStatus status) {
     result.status = status;
-    // Divided by their sum: on a short edge the weights are rounded as coarsely as it is short,
-    // which moves a point along the edge but must not move it off.
+    // Weights are divided by their sum. On a short edge they have few correct digits, which may
+    // move a point along the edge but must not move it off.
     T sum = T(0);
     for (const T weight : closest.weights) sum += weight;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -74,7 +75,7 @@ DistanceResult<T, Dim> gjk_distance(const Supports& supports, const Vec<T, Dim>&
     result.certificate = std::max(gap, T(0));
     return result;
   };
-  // Rounding has the last word: w brought nothing new.
+  // Rounding ends the search: w made no progress.
   const auto stalled = [&] {
     if (result.lower > tolerance::gjk_rounding<T> * radius)
       return finish(DistanceStatus::separated);
@@ -100,7 +101,8 @@ DistanceResult<T, Dim> gjk_distance(const Supports& supports, const Vec<T, Dim>&
       return result;
     }
 
-    // v is close enough to v(A - B). The first v need not be in the obstacle: no test.
+    // Tests if v is close enough to v(A - B). The first v may lie outside the obstacle, so it is
+    // not tested.
     const unsigned before = Y.used();
     bool is_close_enough = false;
     if (before != 0) {
@@ -121,7 +123,7 @@ DistanceResult<T, Dim> gjk_distance(const Supports& supports, const Vec<T, Dim>&
         v = answer.v;
         Y.keep(answer.kept);
       } else {
-        slot = -1;  // No progress; the former answer's vertices are still in their slots.
+        slot = -1;  // No progress; the previous result's vertices are still in their slots.
       }
     }
 

@@ -23,17 +23,17 @@ namespace minkray {
 
 template <class T>
 struct GjkCastOptions {
-  /// Relative to max|x - p|^2; see tolerance::gjk_squared. At least the square of the machine
-  /// epsilon: below that the loop can only end by stalling.
+  /// Relative to max|x - p|^2; see tolerance::gjk_squared. Must be at least the square of the
+  /// machine epsilon: below that the loop can only end by stalling.
   T eps_tol = tolerance::gjk_squared<T>;
   int max_iterations = tolerance::gjk_max_iterations;
-  /// A direction to begin with, such as the separating axis of the previous frame; zero for none.
+  /// Initial direction, such as the separating axis of the previous frame; zero for none.
   Vec3<T> v0 = Vec3<T>::Zero();
 };
 
 namespace detail {
 
-/// Shows an iteration, with the support points that the simplex kept.
+/// Passes an iteration to the observer, with the support points that the simplex kept.
 template <class T, class Observer, class G>
 void observe(Observer& observer, const G& Y, CastIteration<T> iteration) {
   if constexpr (!std::is_same_v<Observer, NoObserver> &&
@@ -49,8 +49,8 @@ void observe(Observer& observer, const G& Y, CastIteration<T> iteration) {
 
 }  // namespace detail
 
-/// The least parameter at which the ray lies in the shape. `ball` must hold the shape, and the ray
-/// be given relative to the ball's centre. Inside: the parameter is that of the ray's beginning.
+/// Returns the least parameter at which the ray is in the shape: that of its beginning if the ray
+/// begins inside. `ball` must contain the shape, and the ray must be relative to the ball's centre.
 /// `Y` is the distance subalgorithm (subalgorithm.h), which also keeps the simplex.
 template <class T, class S, class Observer = NoObserver, class G = ProjectionSubalgorithm<T, 3>>
 requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const RayNearBall<T>& near,
@@ -66,8 +66,8 @@ requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const Ra
     return result;
   };
 
-  // The bounding ball: its nearest point of the ray may separate; else the cast may begin at the
-  // ball's surface.
+  // Bounding ball: a tangent plane separates a ray that misses the ball. Otherwise the cast begins
+  // at the ball's surface, or at the ray's beginning inside it.
   const T nearest = std::clamp(T(0), near.lambda_min, near.lambda_max);
   const Vec3<T> to_ray = s + nearest * r;
   if (to_ray.norm() > ball.radius * (T(1) + tolerance::ball_padding<T>)+near.loss)
@@ -114,7 +114,8 @@ requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const Ra
       const T v_r = v.dot(r);
       if (!(v_r < T(0))) {
         show();
-        // Behind x the plane that clipped last keeps off, or the ball's, where the cast began.
+        // The ray before x is separated by the plane that clipped last or, if none did, by the
+        // ball's tangent plane at the start of the cast.
         if (from_origin && !has_advanced) return miss(v);
         return miss(joined_plane(v, has_advanced ? n : x, r));
       }
@@ -123,7 +124,7 @@ requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const Ra
         show();
         return miss(v);
       }
-      // Beyond the ball's far side, where the ball's own plane keeps off.
+      // Clipped beyond the ball's far side: the ball's tangent plane there separates the rest.
       if (clipped > depth + tolerance::ball_padding<T> * ball.radius) {
         show();
         return miss(joined_plane(Vec3<T>(s + depth * r), v, r));
@@ -138,7 +139,7 @@ requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const Ra
       }
     }
 
-    // The simplex with p, which the paper allows to come back after a clip.
+    // Adds p to the simplex unless it is there: the paper allows p to recur after a clip.
     const bool repeated = Y.holds(p);
     const int slot = repeated ? -1 : Y.add(p);
     const T furthest = Y.furthest_squared();
@@ -151,7 +152,7 @@ requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const Ra
 
     const bool unchanged = repeated || !Y.uses(slot);
 
-    // Close enough, or as close as rounding lets it come.
+    // Close enough, or as close as rounding allows.
     const T previous = v_squared;
     v_squared = v.squaredNorm();
     const T v_size = std::sqrt(v_squared) / ball.radius;

@@ -11,7 +11,8 @@ namespace minkray {
 /// For X a subset of the vertices Y, v(aff X) = sum of D_i(X)/D(X) y_i, with
 ///   D_i({i}) = 1,  D_j(X + {j}) = sum over i in X of D_i(X) (y_k - y_j).y_i  for any k in X,
 /// and D(X) their sum. The smallest X that carries v has D_i(X) > 0 for all i in X and
-/// D_j(X + {j}) <= 0 for all others. If rounding has changed signs of determinants, no X may pass.
+/// D_j(X + {j}) <= 0 for all others. If rounding has changed signs of determinants, there may be
+/// no such X.
 /// The backup procedure of Gilbert, Johnson and Keerthi (1988) then takes the closest v of all X
 /// with D_i(X) > 0.
 template <class T, int Dim>
@@ -21,17 +22,17 @@ class JohnsonSubalgorithm : public SimplexVertices<T, Dim> {
  public:
   static constexpr std::string_view name = "johnson";
 
-  /// No vertices, and the origin of the configuration space at x.
+  /// Starts without vertices, at x.
   void begin(const Vec<T, Dim>& x) { Base::clear(x); }
 
-  /// x moved: the vertices are translated and the determinants recomputed.
+  /// Moves x: translates the vertices and recomputes the determinants.
   void move(const Vec<T, Dim>& x) {
     Base::translate(x);
     for (unsigned X = 1; X <= Base::all_slots; ++X)
       if ((X & ~this->used()) == 0) compute_determinants(X);
   }
 
-  /// A new vertex; the slot that it got.
+  /// Adds a vertex and returns its slot.
   int add(const Vec<T, Dim>& p) {
     const int slot = Base::insert(p);
     for (int j = 0; j < Base::slots; ++j) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// closest_point.h, the closest point by projections, as a distance subalgorithm: the default of
-// the solvers. In 2D the simplex is a flat one in 3D, which loses nothing.
+// Distance subalgorithm by projections (core/gjk/closest_point.h): the default of the solvers. A
+// simplex in 2D is treated as a flat one in 3D, without loss.
 #pragma once
 
 #include "core/gjk/closest_point.h"

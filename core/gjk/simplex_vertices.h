@@ -20,10 +20,11 @@ struct SubalgorithmAnswer {
   Vec<T, Dim> v = Vec<T, Dim>::Zero();  ///< the simplex' point closest to the origin
   std::array<T, Dim + 1> weights = {};  ///< by slot: v = sum of weights[i] * y[i]
   unsigned kept = 0;                    ///< bit i: the vertex in slot i is needed to carry v
-  bool proper = true;                   ///< false: rounding left no subset, this is the backup's
+  bool proper = true;                   ///< false: found by the backup procedure, due to rounding
 };
 
-/// The slots; base of the subalgorithms. All of Dim + 1 slots in use: the simplex has an interior.
+/// Slots of the vertices; base of the subalgorithms. If all Dim + 1 slots are used, the simplex has
+/// an interior.
 template <class T, int Dim>
 class SimplexVertices {
  public:
@@ -38,14 +39,14 @@ class SimplexVertices {
   const Vec<T, Dim>& p(int slot) const { return p_[static_cast<std::size_t>(slot)]; }
   const Vec<T, Dim>& y(int slot) const { return y_[static_cast<std::size_t>(slot)]; }
 
-  /// True if p is a vertex already, to the last digit.
+  /// True if p is exactly equal to a vertex.
   bool holds(const Vec<T, Dim>& p) const {
     for (int i = 0; i < slots; ++i)
       if (uses(i) && this->p(i) == p) return true;
     return false;
   }
 
-  /// max |y|^2 over the vertices: what the paper's termination test is relative to.
+  /// Maximum of |y|^2 over the vertices; the paper's termination test is relative to it.
   T furthest_squared() const {
     T furthest = T(0);
     for (int i = 0; i < slots; ++i)
@@ -53,7 +54,7 @@ class SimplexVertices {
     return furthest;
   }
 
-  /// Forgets the vertices that do not carry v.
+  /// Removes the vertices whose bits are not set; they do not carry v.
   void keep(unsigned kept) { used_ &= kept; }
 
  protected:

@@ -11,8 +11,8 @@
 
 namespace minkray {
 
-/// begin(x), then add(p) and move(x) in any order, closest() and keep() after each; never more than
-/// `slots` vertices.
+/// Call begin(x), then repeatedly add(p) or move(x), closest() and keep(). There are never more
+/// than `slots` vertices.
 template <class G>
 concept DistanceSubalgorithm = requires(G g, const G& c,
                                         const Vec<typename G::Scalar, G::dimension>& p) {
@@ -41,7 +41,7 @@ inline constexpr std::array subalgorithm_descriptions = {
                             "signed volumes, Montanari et al. (2017)"},
 };
 
-/// visit(subalgorithm) with a fresh subalgorithm of the kind.
+/// Returns visit(subalgorithm) for a new subalgorithm of the kind.
 template <class T, int Dim, class Visit>
 decltype(auto) with_subalgorithm(SubalgorithmKind kind, Visit&& visit) {
   switch (kind) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Affine maps x -> linear * x + translation, and the ways a user spells them.
+// Affine maps x -> linear * x + translation, and their construction from users' notations.
 #pragma once
 
 #include <Eigen/LU>
@@ -9,8 +9,8 @@
 
 namespace minkray {
 
-/// The inverse of an invertible matrix of any scale: divided by a power of two first, so that its
-/// determinant is in range.
+/// Inverse of an invertible matrix of any scale. Divides the matrix by a power of two first, so
+/// that its determinant is in range.
 template <class T>
 Mat3<T> inverse_of(const Mat3<T>& linear) {
   int exponent = 0;
@@ -19,8 +19,8 @@ Mat3<T> inverse_of(const Mat3<T>& linear) {
   return Mat3<T>(linear * down).inverse() * down;
 }
 
-/// True if the rows are of unit length and at right angles to a few roundings, so that the
-/// transpose is as good an inverse as `inverse_of` makes.
+/// True if the rows have unit length and are perpendicular, up to a few roundings: the transpose is
+/// then as good an inverse as that of inverse_of.
 template <class T>
 bool keeps_lengths(const Mat3<T>& linear) {
   constexpr T rounding = T(4) * std::numeric_limits<T>::epsilon();
@@ -35,7 +35,7 @@ struct Affine {
 
   Vec3<T> operator()(const Vec3<T>& point) const { return linear * point + translation; }
 
-  /// First `inner`, then this.
+  /// Applies `inner` first, then this map.
   Affine operator*(const Affine& inner) const {
     return {linear * inner.linear, (*this)(inner.translation)};
   }
@@ -66,8 +66,8 @@ Mat3<T> rotation_matrix(T x, T y, T z, T w) {
   return m;
 }
 
-/// Takes a quaternion of any length but zero. A unit quaternion stays as it is; the squares of
-/// others could leave the range of T.
+/// Takes a quaternion of any length except zero. Long or short quaternions are scaled first, since
+/// their squares could leave the range of T; a unit quaternion is not changed.
 template <class T>
 Mat3<T> rotation_matrix_of_any(T x, T y, T z, T w) {
   using std::abs;

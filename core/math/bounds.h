@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Axis-aligned boxes and balls around things.
+// Axis-aligned bounding boxes, and bounding balls.
 #pragma once
 
 #include "core/math/vec.h"
 
 namespace minkray {
 
-/// An axis-aligned box; empty (lower > upper) when made by default.
+/// An axis-aligned box; empty (lower > upper) by default.
 template <class T>
 struct Bounds {
   Vec3<T> lower = Vec3<T>::Constant(std::numeric_limits<T>::infinity());
@@ -15,7 +15,7 @@ struct Bounds {
   bool empty() const { return !(lower.array() <= upper.array()).all(); }
   Vec3<T> centre() const { return lower * T(0.5) + upper * T(0.5); }
   Vec3<T> half_extents() const { return upper * T(0.5) - lower * T(0.5); }
-  /// Half extents of a box around the centre, as that is rounded, which holds this one.
+  /// Half extents of a box around the rounded centre that contains this box.
   Vec3<T> reach_of_centre() const {
     const Vec3<T> middle = centre();
     return (upper - middle).cwiseMax(middle - lower);
@@ -31,7 +31,7 @@ struct Bounds {
   }
 };
 
-/// The least box of floats that holds a box, which must not be empty.
+/// The smallest box of floats that contains `bounds`, which must not be empty.
 template <class T>
 Bounds<float> rounded_outwards(const Bounds<T>& bounds) {
   Bounds<float> box;
@@ -48,7 +48,8 @@ Bounds<float> rounded_outwards(const Bounds<T>& bounds) {
   return box;
 }
 
-/// A ball that holds a shape: where a cast moves its origin to, and the size tolerances refer to.
+/// A ball that contains a shape: casts move the ray's origin near its centre, and tolerances are
+/// relative to its radius.
 template <class T>
 struct Ball {
   Vec3<T> centre = Vec3<T>::Zero();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reading rows of a table, a row for each lane: whole registers are read and transposed, instead
-// of putting number after number into its lane.
+// Reads rows of a table, one row per lane: loads whole registers and transposes them, instead of
+// inserting single numbers into lanes.
 #pragma once
 
 #include "core/math/wide.h"
@@ -81,8 +81,8 @@ void transpose(const std::array<const Lane<W>*, LaneOf<W>::count>& rows, W* colu
 
 }  // namespace detail
 
-/// The numbers at `table` and behind it, `count` of them (a multiple of 4), from the row with this
-/// index, a small whole number. Rows begin `row_size` numbers after each other.
+/// Returns the first `count` numbers (a multiple of 4) of the row with this index, a small integer.
+/// Row 0 begins at `table`; rows are `row_size` numbers apart.
 template <std::size_t count, std::floating_point W>
 std::array<W, count> gather_row(W index, const W* table, std::size_t row_size) {
   std::array<W, count> columns;
@@ -90,7 +90,7 @@ std::array<W, count> gather_row(W index, const W* table, std::size_t row_size) {
   return columns;
 }
 
-/// Each lane has a row of its own.
+/// Same, with one row per lane.
 template <std::size_t count, class W>
 requires(LaneOf<W>::count > 1) std::array<W, count> gather_row(const W& index, const Lane<W>* table,
                                                                std::size_t row_size) {

@@ -7,7 +7,7 @@
 
 namespace minkray {
 
-/// The least number whose square is a normal number. Its inverse has a square that is a number.
+/// Least number whose square is a normal number. The square of its inverse is finite.
 template <class T>
 inline constexpr T least_to_square = std::is_same_v<T, float> ? T(0x1p-63) : T(0x1p-511);
 static_assert(least_to_square<float> * least_to_square<float> == std::numeric_limits<float>::min());

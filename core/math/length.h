@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lengths of vectors whose squares may under- or overflow, as fast as others where they do not.
+// Lengths of vectors, including vectors whose squares under- or overflow. Other vectors are as fast
+// as with norm().
 #pragma once
 
 #include <cmath>
@@ -9,7 +10,7 @@
 
 namespace minkray {
 
-/// True if squares of the components that count are normal numbers, as for unit()
+/// True if squares of the components that matter are normal numbers, as for unit()
 /// (core/math/vec.h).
 template <class T>
 bool is_ordinary_square(T squared) {
@@ -24,7 +25,7 @@ T length_of(const Vec3<T>& v) {
   return is_ordinary_square(squared) ? std::sqrt(squared) : v.stableNorm();
 }
 
-/// This one takes expressions, which are worked out first.
+/// Takes expressions, which are evaluated first.
 inline double length_of(const Vec3<double>& v) {
   return length_of<double>(v);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ends of intervals that are sums of two numbers, as one number: rounded outwards, so that an
-// interval of no width holds what it held.
+// Converts ends of intervals from sums of two numbers to single numbers, rounded outwards: the new
+// interval contains the old one.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,8 @@
 
 namespace minkray {
 
-/// A number no larger than a + b, and equal if that is a number; less by two roundings at most.
+/// Returns a number that is at most a + b: equal if a + b is a number of T, otherwise less by at
+/// most two roundings.
 template <class T>
 T sum_or_less(T a, T b) {
   const TwoFold<T> sum = two_sum(a, b);
@@ -17,7 +18,7 @@ T sum_or_less(T a, T b) {
   return sum.low < T(0) ? lower : sum.high;
 }
 
-/// The other way.
+/// Returns a number that is at least a + b, rounded in the same way.
 template <class T>
 T sum_or_more(T a, T b) {
   return -sum_or_less(T(-a), T(-b));

@@ -11,7 +11,7 @@ namespace minkray {
 
 namespace detail {
 
-/// Enough terms of the two series for the numbers' digits.
+/// Numbers of terms of the two series, enough for the digits of T.
 template <class T>
 struct SeriesTerms {
   static_assert(std::numeric_limits<T>::digits <= 64, "more digits need more terms");
@@ -21,7 +21,7 @@ struct SeriesTerms {
 
 }  // namespace detail
 
-/// log2(x) for x > 0 that is a normal number; what a result is for others has no meaning.
+/// log2(x) for positive normal numbers x; undefined for others.
 template <class W>
 W log2_of(const W& x) {
   using T = Lane<W>;
@@ -39,7 +39,7 @@ W log2_of(const W& x) {
   return k + t * series * W(T(2) * log2_e);
 }
 
-/// 2^x; 0 where that is below the normal numbers, and the largest power of two where it is above.
+/// 2^x; 0 if that would be subnormal, and the largest power of two if it would be greater.
 template <class W>
 W exp2_of(const W& x) {
   using std::max;
@@ -49,7 +49,7 @@ W exp2_of(const W& x) {
   constexpr T least = T(std::numeric_limits<T>::min_exponent - 1);
   constexpr T most = T(std::numeric_limits<T>::max_exponent - 1);
   const W bounded = min(max(x, W(least)), W(most));
-  // To the nearest whole number, via numbers that have no digits after the point.
+  // Rounds to the nearest integer, via numbers without fractional digits.
   constexpr T no_fraction = T(1.5) / std::numeric_limits<T>::epsilon();
   const W k = (bounded + W(no_fraction)) - W(no_fraction);
   const W y = (bounded - k) * W(ln2);
@@ -59,13 +59,13 @@ W exp2_of(const W& x) {
   return select(x < W(least), W(0), W(series * two_to(k)));
 }
 
-/// base^exponent for 0 <= base; 0^exponent is 0, whatever the exponent but 0. The exponent may be
+/// base^exponent for 0 <= base; 0^exponent is 0 unless the exponent is 0. The exponent may be
 /// infinite.
 template <class W>
 W power(const W& base, Lane<W> exponent) {
   using T = Lane<W>;
   if (exponent == T(0)) return W(1);
-  // Whole exponents by multiplication, roots by square roots: cheap, and the usual ones.
+  // Integer exponents by multiplication, roots by square roots: these are common and cheap.
   constexpr T most_by_hand = T(16);
   if (exponent > T(0) && exponent <= most_by_hand && exponent == std::floor(exponent)) {
     int left = static_cast<int>(exponent);
@@ -83,7 +83,7 @@ W power(const W& base, Lane<W> exponent) {
   using std::sqrt;
   if (exponent == T(0.5)) return sqrt(base);
   if (exponent == T(0.25)) return sqrt(sqrt(base));
-  // Numbers below the normal ones have no leading power: they are brought up.
+  // Subnormal numbers have no leading power of two, and are scaled up first.
   constexpr T smallest = std::numeric_limits<T>::min();
   constexpr T digits = T(std::numeric_limits<T>::digits);
   const Mask<W> some = base > W(0), small = base < W(smallest);

@@ -6,9 +6,8 @@
 
 namespace minkray {
 
-/// Lengths are in the scene's unit; T may be a packet: a ray in every lane. The direction need not
-/// be of unit length (t counts in its lengths) and may be zero: such a ray is the single point
-/// `origin`.
+/// Lengths are in the scene's unit; T may be a packet, with one ray per lane. The direction may
+/// have any length (t is in units of it). If it is zero, the ray is the single point `origin`.
 template <class T>
 struct Ray {
   Vec3<T> origin;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Numbers, vectors and maps in twice the digits, each as a sum of two that is not added up: what
-// brings positions near each other without rounding them to how far away they are. The error-free
-// sums and products are those of Knuth and Dekker (Dekker, "A Floating-Point Technique for
-// Extending the Available Precision", 1971). Sums of terms as large as x are known to 2^-104 x.
+// Numbers, vectors and maps with twice the digits, each stored as an unevaluated sum of two: for
+// differences of positions that are far from the origin. The error-free sums and products are those
+// of Knuth and Dekker (Dekker, "A Floating-Point Technique for Extending the Available Precision",
+// 1971). Sums of terms as large as x are known to 2^-104 x.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace minkray {
 
-/// The number high + low, where low is what rounding to high left.
+/// The number high + low; low is the rounding error of high.
 template <class W>
 struct TwoFold {
   W high = W(0), low = W(0);
@@ -25,7 +25,7 @@ TwoFold<W> two_sum(const W& a, const W& b) {
   return {sum, W((a - (sum - of_b)) + (b - of_b))};
 }
 
-/// a * b, exactly, as long as the product's last digits are numbers.
+/// a * b, exactly, unless the product's last digits underflow.
 template <class T>
 TwoFold<T> two_product(T a, T b) {
   const T product = a * b;
@@ -126,19 +126,19 @@ TwoFoldVec3<T> image_of(const Affine<T>& map, const TwoFoldVec3<T>& point) {
   return TwoFoldMat3<T>(map.linear) * point + TwoFoldVec3<T>(map.translation);
 }
 
-/// The inverse of an invertible matrix, each entry rounded about once, whatever the condition: by
-/// Newton's iteration from the inverse in single digits. Where that has no digit right, some
-/// entries are no numbers.
+/// Inverse of an invertible matrix, with each entry rounded about once whatever the condition, by
+/// Newton's iteration from the inverse in T. If that inverse has no correct digit, some entries of
+/// the result may be NaN.
 template <class T>
 Mat3<T> accurate_inverse(const TwoFoldMat3<T>& m) {
-  // A step leaves the square of what it finds: half the digits at least are right before the last.
+  // A step squares the error: before the last step, at least half of the digits must be right.
   constexpr T half_the_digits = T(1) / T(1ll << (std::numeric_limits<T>::digits / 2 + 3));
   constexpr int most_steps = 8;
   TwoFoldMat3<T> inverse(inverse_of(m.high));
   bool is_pivoted = false;
   if (m.is_identity()) return inverse.high;
   for (int step = 0; step < most_steps; ++step) {
-    Mat3<T> rest;  // of the identity less m * inverse
+    Mat3<T> rest;  // identity - m * inverse
     for (int i = 0; i < 3; ++i)
       for (int k = 0; k < 3; ++k) {
         TwoFold<T> sum{T(i == k ? 1 : 0), T(0)};
@@ -158,7 +158,8 @@ Mat3<T> accurate_inverse(const TwoFoldMat3<T>& m) {
     if (largest <= half_the_digits) return inverse.high;
     if (largest < T(1)) continue;
     if (is_pivoted) break;
-    // Cofactors lose the square of the condition, elimination with pivots the condition.
+    // Cofactors lose digits by the square of the condition number, pivoted elimination by the
+    // condition number.
     is_pivoted = true;
     inverse = TwoFoldMat3<T>(Mat3<T>(m.high.fullPivLu().inverse()));
   }

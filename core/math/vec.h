@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The vector vocabulary: Eigen's fixed-size columns and matrices over a scalar W, which is float,
-// double or (for packets of rays) a vector of lanes. Everything that a packet must also be able to
-// do goes through the few free functions here instead of through `if`.
+// double or (for packets of rays) a vector of lanes. Code that also runs on packets uses the free
+// functions here instead of `if`.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,8 +26,8 @@ using Vec = Eigen::Matrix<W, Dim, 1>;
 template <class W>
 using Mat3 = Eigen::Matrix<W, 3, 3>;
 
-/// The type that one lane of W holds: W itself unless W is a packet (core/math/wide.h); what
-/// comparisons of W give; and how many lanes there are.
+/// The type of one lane of W (W itself unless W is a packet, core/math/wide.h), the type of its
+/// comparisons, and the number of lanes.
 template <class W>
 struct LaneOf {
   using type = W;
@@ -55,7 +55,7 @@ inline bool all(bool condition) {
   return condition;
 }
 
-/// The power of two that a positive normal number begins with; 0 for smaller numbers.
+/// The largest power of two up to x, a positive normal number; 0 for smaller numbers.
 template <std::floating_point W>
 W leading_power_of_two(W x) {
   if constexpr (sizeof(W) > sizeof(double)) {
@@ -69,7 +69,7 @@ W leading_power_of_two(W x) {
   }
 }
 
-/// The k of 2^k, a normal number.
+/// Returns k for 2^k, a normal number.
 template <std::floating_point W>
 W exponent_of(W power_of_two) {
   if constexpr (sizeof(W) > sizeof(double)) {
@@ -77,7 +77,7 @@ W exponent_of(W power_of_two) {
     std::frexp(power_of_two, &exponent);
     return W(exponent - 1);
   } else {
-    // The exponent's bits, put behind a number whose last digit is worth 1.
+    // Puts the exponent's bits at the end of a number whose last digit is worth 1.
     using Bits = std::conditional_t<sizeof(W) == 4, std::uint32_t, std::uint64_t>;
     constexpr int digits = std::numeric_limits<W>::digits - 1;
     constexpr W ones = W(1) / std::numeric_limits<W>::epsilon();
@@ -87,7 +87,7 @@ W exponent_of(W power_of_two) {
   }
 }
 
-/// 2^k for a whole number k for which that is a normal number.
+/// 2^k for an integer k; the result must be a normal number.
 template <std::floating_point W>
 W two_to(W k) {
   if constexpr (sizeof(W) > sizeof(double)) {
@@ -101,7 +101,7 @@ W two_to(W k) {
   }
 }
 
-/// The vector of the lanes where the condition holds from a, elsewhere from b.
+/// Selects a where the condition holds, else b, lane by lane.
 template <class W, class Mask>
 Vec3<W> select(const Mask& condition, const Vec3<W>& a, const Vec3<W>& b) {
   return {select(condition, a.x(), b.x()), select(condition, a.y(), b.y()),
@@ -110,7 +110,7 @@ Vec3<W> select(const Mask& condition, const Vec3<W>& a, const Vec3<W>& b) {
 
 namespace detail {
 
-/// `unit` for vectors whose squared length leaves the range of W, and zero.
+/// Same as `unit`, for zero and for vectors whose squared length leaves the range of W.
 template <class W>
 [[gnu::noinline, gnu::cold]] Vec3<W> unit_rescaled(const Vec3<W>& v, const Mask<W>& ordinary) {
   using std::abs;
@@ -144,19 +144,19 @@ template <class W>
   return v * (W(1) / sqrt(squared));
 }
 
-/// The number at an index, which is a small whole number.
+/// Returns number_of(index); the index must be a small integer.
 template <std::floating_point W, class NumberOf>
 W lookup(W index, NumberOf&& number_of) {
   return number_of(static_cast<std::size_t>(index));
 }
 
-/// Rounded towards zero; for small numbers that are not negative.
+/// Rounds towards zero; for small numbers that are not negative.
 template <std::floating_point W>
 W whole(W x) {
   return static_cast<W>(static_cast<int>(x));
 }
 
-/// The lanes of T as W: a shape's own numbers meet a packet of directions.
+/// Converts a vector of T to W, with the same vector in all lanes.
 template <class W, class T>
 Vec3<W> widen(const Vec3<T>& v) {
   return {W(v.x()), W(v.y()), W(v.z())};
@@ -170,7 +170,7 @@ Mat3<W> widen(const Mat3<T>& m) {
   return wide;
 }
 
-/// m v, a matrix of one lane's numbers applied to all lanes.
+/// Returns m v, with the same matrix for all lanes.
 template <class W, class T>
 Vec3<W> times(const Mat3<T>& m, const Vec3<W>& v) {
   const auto row = [&](int i) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A packet of numbers: the scalar of packets of rays, made of the compiler's vector types, so that
-// one source serves every instruction set. `Isa` names the instruction set that the including file
-// is compiled for. As a part of the type it gives code for different instruction sets different
-// names, so that the linker never mixes it up (docs/decisions/packets.md).
+// A packet of numbers: the scalar of packets of rays. Uses the compiler's vector types, so that one
+// source serves every instruction set. `Isa` names the instruction set that the including file is
+// compiled for. As a part of the type, it gives functions for different instruction sets different
+// names, so that the linker cannot mix them up (docs/decisions/packets.md).
 #pragma once
 
 #if defined(__AVX2__)
@@ -33,7 +33,7 @@ using IsaHere = IsaAvx2;
 using IsaHere = IsaSse2;
 #endif
 
-/// A yes or no for each lane.
+/// A truth value for each lane.
 template <class T, int N, class Isa>
 struct WideMask {
   using Lanes __attribute__((vector_size(N * sizeof(T)))) = T;
@@ -45,7 +45,7 @@ struct WideMask {
 
   WideMask() : bits{} {}
   explicit WideMask(Bits b) : bits(b) {}
-  /// All lanes are equal.
+  /// Sets all lanes to `all`.
   explicit WideMask(bool all) : bits(all ? Lanes() == Lanes() : Bits()) {}
 
   bool lane(int i) const { return bits[i] != 0; }
@@ -104,7 +104,7 @@ struct Wide {
 
   Wide() : lanes{} {}
   explicit Wide(Lanes l) : lanes(l) {}
-  /// All lanes hold x.
+  /// Sets all lanes to x.
   explicit Wide(T x) : lanes(x - Lanes()) {}
 
   static Wide load(const T* from) {
@@ -136,8 +136,8 @@ struct Wide {
   friend Wide select(const Mask& condition, const Wide& a, const Wide& b) {
     return Wide(condition.bits ? a.lanes : b.lanes);
   }
-  /// Like std::min and std::max: if a comparison with NaN fails, they return a. The machine's own
-  /// instructions return their second argument there, and for zeros of either sign.
+  /// Same as std::min and std::max: return a if a comparison with NaN fails. Machine instructions
+  /// return their second argument then, and for zeros of different signs; hence b comes first.
   friend Wide min(const Wide& a, const Wide& b) {
 #if defined(__AVX2__)
     if constexpr (sizeof(Lanes) == 32 && sizeof(T) == 4)
@@ -217,7 +217,7 @@ struct Wide {
  private:
   using Bits = typename Mask::Bits;
   static constexpr int mantissa_bits = std::numeric_limits<T>::digits - 1;
-  /// The least number without digits after the point; what exponents are stored larger by.
+  /// The least number without fractional digits; the bias of stored exponents.
   static constexpr T ones = T(1) / std::numeric_limits<T>::epsilon();
   static constexpr T bias = T(std::numeric_limits<T>::max_exponent - 1);
   static Wide sign_bit() {
@@ -238,7 +238,7 @@ struct LaneOf<Wide<T, N, Isa>> {
   static constexpr int count = N;
 };
 
-/// Gives the numbers other digits, rounded to nearest.
+/// Converts the numbers to another type, rounded to nearest.
 template <class To, class T, int N, class Isa>
 Wide<To, N, Isa> convert_lanes(const Wide<T, N, Isa>& from) {
   return Wide<To, N, Isa>(__builtin_convertvector(from.lanes, typename Wide<To, N, Isa>::Lanes));
@@ -249,20 +249,21 @@ WideMask<To, N, Isa> convert_lanes(const WideMask<T, N, Isa>& from) {
       __builtin_convertvector(from.bits, typename WideMask<To, N, Isa>::Bits));
 }
 
-/// The vectors that vector_of(lane) gives, lane by lane.
+/// Returns vector_of(lane) for each lane.
 template <class W, class VectorOf>
 Vec3<W> per_lane(VectorOf&& vector_of) {
   using T = Lane<W>;
   using Lanes = typename W::Lanes;
   return [&]<int... i>(std::integer_sequence<int, i...>)->Vec3<W> {
     const std::array<Vec3<T>, sizeof...(i)> v = {Vec3<T>(vector_of(i))...};
-    // All at once: lanes that are written one by one to memory are slow to read as a whole.
+    // Sets all lanes at once: lanes that are written one by one to memory are slow to read as a
+    // whole.
     return {W(Lanes{v[i].x()...}), W(Lanes{v[i].y()...}), W(Lanes{v[i].z()...})};
   }
   (std::make_integer_sequence<int, LaneOf<W>::count>());
 }
 
-/// The numbers at the lanes' indices, which are small whole numbers.
+/// Returns number_of(index) for each lane; indices must be small integers.
 template <class W, class NumberOf>
 requires(LaneOf<W>::count > 1) W lookup(const W& index, NumberOf&& number_of) {
   return [&]<int... i>(std::integer_sequence<int, i...>) {

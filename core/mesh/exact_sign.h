@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Side of an edge on which a ray passes: the true sign, so that two triangles that share the edge
-// agree and no ray slips between them.
+// Side of an edge on which a ray passes, computed exactly: two triangles that share the edge agree,
+// so no ray slips between them.
 #pragma once
 
 #include "core/math/vec.h"

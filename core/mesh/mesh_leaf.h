@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Up to eight triangles of a mesh for eight float lanes: their corners are whole numbers of 16 bits
-// in a cube of the leaf's own, so that lanes only see numbers as large as the leaf. A corner is off
-// by half a unit: lanes propose triangles, which double decides.
+// Up to eight triangles of a mesh for eight float lanes. Corners are integers of 16 bits relative
+// to the leaf's cube, so that numbers in lanes are no larger than the leaf. A corner is off by up
+// to half a unit: lanes propose triangles, which are then tested in double.
 #pragma once
 
 #include <bit>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds where rays meet a mesh. The sides on which a ray passes a triangle's edges are true signs:
-// a ray at a closed mesh's edge or corner meets one of the triangles there.
+// Finds where rays hit a mesh. The side of an edge on which a ray passes is computed exactly: a ray
+// that passes through an edge or corner of a closed mesh hits one of the triangles there.
 #pragma once
 
 #include "core/bvh/traverse.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Casts many rays at one mesh: the same results as one by one, and faster.
+// Casts many rays at one mesh: the same results as one by one, but faster.
 #pragma once
 
 #include <span>
@@ -13,10 +13,10 @@ struct PartRay {
   double t_min = 0;
 };
 
-/// hits[i] is closest_part of rays[i].
+/// Sets hits[i] to closest_part of rays[i].
 void closest_parts(const TriangleMesh& mesh, std::span<const PartRay> rays, std::span<PartHit> hits,
                    PartCounts& counts);
-/// met[i] becomes 1 if meets_part is true of rays[i], 0 if not.
+/// Sets met[i] to 1 if meets_part is true for rays[i], to 0 if not.
 void meet_parts(const TriangleMesh& mesh, std::span<const PartRay> rays,
                 std::span<std::uint8_t> met, PartCounts& counts);
 

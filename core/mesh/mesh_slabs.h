@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Slabs around the parts of a surface below each node, across their mean normals. A slab is thin
-// where the surface is nearly flat, whatever its direction; an axis-aligned box is as thick as the
-// part.
+// Slabs around the parts of a surface below each node, perpendicular to their mean normals. A slab
+// is thin where the surface is nearly flat, whatever its direction; an axis-aligned box is as thick
+// as the part.
 #pragma once
 
 #include <vector>
@@ -12,8 +12,9 @@ namespace minkray {
 
 class TriangleMesh;
 
-/// Each child of a node lies between two planes across a normal, which need not have unit length,
-/// about the middle of the mesh's box. A normal of 0 means that there is no slab.
+/// Each child of a node lies between two planes perpendicular to a normal, which need not have unit
+/// length. Their offsets are relative to the middle of the mesh's box. A normal of 0 means that
+/// there is no slab.
 struct NodeSlabs {
   float normals[3][bvh_width];
   float low[bvh_width], high[bvh_width];

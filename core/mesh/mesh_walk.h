@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Walks of rays through a mesh in which float lanes rule out most triangles. The remaining ones are
-// cast at in double, so that results have the same bits as the plain walk. For machines with AVX2
-// and FMA.
+// tested in double, so that results are bit-identical to those of the plain walk. Requires AVX2 and
+// FMA.
 #pragma once
 
 #include <cmath>
@@ -16,8 +16,8 @@ namespace minkray {
 struct MeshView {
   const BvhNode* nodes;
   const MeshLeaf* leaves;
-  const double* vertices;        ///< three numbers each
-  const std::uint32_t* corners;  ///< three of each triangle
+  const double* vertices;        ///< three coordinates per vertex
+  const std::uint32_t* corners;  ///< three indices per triangle
   const TriangleMesh* mesh;
 };
 
@@ -31,7 +31,7 @@ inline bool has_lanes(const TriangleMesh& mesh) {
   return mesh.suits_lanes() && best_walk_set() == WalkSet::avx2;
 }
 
-/// cast_at_triangle of the mesh's triangle, with its number.
+/// Returns cast_at_triangle for a triangle of the mesh, with its number.
 PartHit cast_at_part(const TriangleMesh& mesh, std::uint32_t triangle, const Ray<double>& ray);
 
 /// True if the error is large relative to t, as for a triangle that the ray grazes.
@@ -40,8 +40,8 @@ inline bool is_wide(const PartHit& hit) {
   return hit.error > wide * hit.t;
 }
 
-/// Same as yields_to, but handles wide hits: such a hit yields to the other one if the ray enters
-/// the box of its triangle only behind the other's t and error.
+/// Same as yields_to, but handles wide hits: a wide hit yields to another one if the ray enters the
+/// box of its triangle only behind the other's t plus error.
 bool yields_to_or_is_wide(const TriangleMesh& mesh, const Ray<double>& ray, const PartHit& closest,
                           const PartHit& hit);
 
@@ -53,7 +53,7 @@ inline bool takes_place(const TriangleMesh& mesh, const Ray<double>& ray, const 
   return closest.yields_to(hit);
 }
 
-/// True if the ray is suitable for lanes: products of three of its numbers and the mesh's are
+/// True if the ray is suitable for lanes: products of any three coordinates of ray and mesh are
 /// finite.
 inline bool suits_lanes(const Ray<double>& ray) {
   constexpr double largest = 0x1p64, smallest = 0x1p-64;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// cast_at_triangle with the three edges in lanes of double: the same operations in the same order,
-// and so the same bits. Cases that are not plain are left to cast_at_triangle. Everything here has
-// internal linkage.
+// Same as cast_at_triangle, with the three edges in lanes of double: the same operations in the
+// same order, and so the same bits. Difficult cases are left to cast_at_triangle. Everything here
+// has internal linkage.
 #pragma once
 
 #if defined(__AVX2__)
@@ -16,7 +16,7 @@ namespace {
 /// A ray for casts in lanes.
 struct CastRay {
   const Ray<double>* ray;
-  double to_t;  ///< 1 / direction along the axis that it follows most
+  double to_t;  ///< 1 / component of the direction along `axis`, its largest
   int axis;
 };
 

@@ -21,7 +21,7 @@ namespace minkray {
 /// Indices of three vertices, counter-clockwise as seen from outside.
 using Corners = std::array<std::uint32_t, 3>;
 
-/// "No part": number for shapes, which have only one part.
+/// Number for no part; also that of shapes, which have only one part.
 inline constexpr std::uint32_t no_part = ~std::uint32_t{0};
 
 /// Defects of a mesh; vertices at the same position count as one. None of these makes results

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A shape relative to its own middle: the middle's place in the world is stored apart, so that
-// queries on two shapes are as precise a kilometre from the world's origin as at it.
+// A shape relative to its own middle: the middle's place in the world is stored separately, so that
+// queries on two shapes are as precise a kilometre from the world's origin as at the origin.
 #pragma once
 
 #include "core/derived/shape_bounds.h"
@@ -15,7 +15,7 @@ template <class T>
 struct CentredShape {
   Shape<T> about_centre;
   Vec3<T> centre;
-  T radius;  ///< of a ball around the centre that holds the shape
+  T radius;  ///< radius of a ball around the centre that contains the shape
 };
 
 /// `pose` maps the shape's frame to the world; it must be invertible. Affine maps around the shape
@@ -34,7 +34,7 @@ CentredShape<T> centred(Shape<T> shape, const Affine<T>& pose = {}) {
   if (!in_place || to_world.linear != Mat3<T>::Identity())
     shape = Transform<T>{shape, Affine<T>{to_world.linear, -(to_world.linear * middle)}};
   const T radius = bounds_of<T>(shape).half_extents().stableNorm();
-  // The box's middle is the centre but for rounding, which the ball allows for.
+  // The box's middle is the centre up to rounding, which the radius allows for.
   return {std::move(shape), centre, radius * (T(1) + T(16) * std::numeric_limits<T>::epsilon())};
 }
 

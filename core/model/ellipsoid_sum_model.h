@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The model of a sum of ellipsoids. Its support function is a sum of roots, so that the direction
-// of the hit is found, nearly as in closed form, before any support call: by osculating
-// ellipsoids, as SmoothModel does, and where these lead astray by ellipsoids around the sum that
-// touch it. One support call proves the hit. Casts not settled by then continue as SmoothModel.
+// The model of a sum of ellipsoids. Its support function is a sum of roots, so the direction of the
+// hit is found without support calls: by osculating ellipsoids, as in SmoothModel, or where these
+// fail, by ellipsoids that contain the sum and touch it. One support call then proves the hit.
+// Casts that are not settled by then continue as SmoothModel.
 #pragma once
 
 #include <optional>
@@ -53,17 +53,17 @@ class EllipsoidSumModel {
     return hit;
   }
 
-  /// Called only where the plane does not meet the hit that `begin` found.
+  /// Called only if the plane does not confirm the hit that `begin` found.
   [[gnu::noinline]] ModelHit<W> step(const Feature& feature, const Vec3<W>& n, int iteration) {
     using std::abs;
     if (!smooth_) smooth_.emplace(shape_, centre_, s_, r_, R_);
     const Vec3<W> n_frame = smooth_->to_frame(n);
     ModelHit<W> hit = smooth_->step(smooth_->support(n_frame, Mask<W>(true)), n_frame, iteration);
     hit.m = smooth_->to_shape(hit.m);
-    // Across the ray, no direction's support is less than that of the requested one.
+    // No direction across the ray has less support than the requested one.
     hit.repeated |= across_;
-    // A plane that is right up to rounding, but so steep that this is much along the ray: is the
-    // ray tangent?
+    // A plane that is right up to rounding, but so steep that rounding is large along the ray: the
+    // next direction shows if the ray is tangent.
     const W missing = feature.support_function(n) - height_ * against_ray(n);
     across_ = hits_ & (abs(missing) <= W(tolerance::jet_gap<T> * R_));
     hits_ = Mask<W>(false);
@@ -104,8 +104,8 @@ class EllipsoidSumModel {
   };
   static Form zero() { return {W(0), W(0), W(0), W(0), W(0), W(0)}; }
 
-  /// The normal, of unit length, where the ray meets the ellipsoid with this shape matrix around
-  /// c_, or across from it: EllipsoidBody::alone, from the matrix instead of a factor.
+  /// Same as EllipsoidBody::alone, for the ellipsoid with this shape matrix around c_: from the
+  /// matrix instead of a factor.
   Vec3<W> met(const Form& A) const {
     using std::max;
     using std::sqrt;
@@ -159,8 +159,8 @@ class EllipsoidSumModel {
       const W h = c_.dot(m) + height;
       const Mask<W> ahead = m.z() > W(tolerance::model_rounding<T>);
 
-      // The value to minimise: ahead, where the plane cuts the ray; across it, the ratio of the
-      // sum's reach to the ray's distance.
+      // The value to minimise: of a direction ahead, the height at which the plane cuts the ray; of
+      // one across the ray, the ratio of the sum's reach to the ray's distance.
       const W cut = h / select(ahead, m.z(), W(1));
       const W beyond = -c_.dot(m);
       const W ratio = height / select(beyond > W(0), beyond, W(T(1) / T(1024)));
@@ -171,8 +171,8 @@ class EllipsoidSumModel {
       least = select(worse, least, value);
       best_is_ahead = (worse & best_is_ahead) | ((!worse) & ahead);
 
-      // The sum's osculating ellipsoid; or, touching it there, one around it, a step on which does
-      // not lead to a higher plane (Cauchy and Schwarz).
+      // The sum's osculating ellipsoid; or one that contains the sum and touches it there: a step
+      // on that one does not lead to a higher plane (Cauchy-Schwarz inequality).
       Form osculating = zero();
       for (std::size_t k = 0; k < sum_.used; ++k) {
         const W share = height * over[k];
@@ -187,8 +187,8 @@ class EllipsoidSumModel {
       const Mask<W> on_to = next.z() > W(tolerance::model_rounding<T>);
       const Mask<W> settled =
           ahead & on_to & (!outer) & (offset * step <= rounding) & (offset <= W(model_reach * R_));
-      // Separates; or reaches least of those across the ray. A ray that is tangent up to rounding
-      // may send the direction to and fro.
+      // Separates, or has the least reach of the directions across the ray. If the ray is tangent
+      // up to rounding, the direction may alternate.
       const W enough = i < max_across ? W(T(-2) * gap) : W(gap);
       const Mask<W> across =
           (!ahead) &
@@ -208,10 +208,10 @@ class EllipsoidSumModel {
     return hit;
   }
 
-  /// Sums of two ordinary ellipsoids need three or four, those of needles dozens: SmoothModel
-  /// continues with these.
+  /// Sums of two ordinary ellipsoids need three or four evaluations, sums of needles dozens:
+  /// SmoothModel continues these.
   static constexpr int max_evaluations = 12;
-  /// The directions across the ray converge in about four.
+  /// Directions across the ray converge in about four evaluations.
   static constexpr int max_across = 6;
   /// Distance from the ray, in units of R, up to which an osculating ellipsoid is trusted (cbrt
   /// epsilon).
@@ -224,7 +224,7 @@ class EllipsoidSumModel {
   RayFrame<W> frame_;
   T R_;
   Vec3<W> c_;                                     ///< the sum's centre, in the ray's frame
-  std::array<Mat3<W>, EllipsoidSum<T>::most> F_;  ///< the same
+  std::array<Mat3<W>, EllipsoidSum<T>::most> F_;  ///< the ellipsoids' factors, in the ray's frame
   W height_ = W(0);
   Mask<W> hits_ =
       Mask<W>(false);  ///< the line hits the sum at height_, and no plane has been requested yet

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a box: through the last of its slabs.
+// Finds where a line enters a box: at the slab that it enters last.
 #pragma once
 
 #include "core/model/facet_plane.h"
@@ -12,7 +12,7 @@ requires(declared_by<Core>.slabs) struct Facets<W, Core> {
   static constexpr bool some = true;
   static bool known(const Core&) { return true; }
 
-  /// The last of its slabs.
+  /// Returns the slab that the line enters last.
   static EnteredFacet<W> entered(const Core& box, const Vec3<T>&, const Vec3<W>&,
                                  const Vec3<W>& from, const RayFrame<W>& frame) {
     using std::abs;

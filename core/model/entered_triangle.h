@@ -15,17 +15,17 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
   static constexpr bool some = true;
   static bool known(const Core& hull) { return hull.points.facets() != nullptr; }
 
-  /// Seen along the ray the facets that face it are a triangulation; from one that is likely to be
-  /// near, the walk leaves each triangle by the edge that the line is furthest beyond (Devillers,
-  /// Pion and Teillaud, "Walking in a Triangulation", 2002). Where that leads to a facet that faces
-  /// away, the edge is on the outline and the line passes by.
+  /// Seen along the ray, the facets that face it form a triangulation. The walk starts at a facet
+  /// that is likely to be near, and leaves each triangle through the edge that the line is furthest
+  /// beyond (Devillers, Pion and Teillaud, "Walking in a Triangulation", 2002). If that leads to a
+  /// facet that faces away, the edge is on the outline and the line misses.
   static EnteredFacet<W> entered(const Core& hull, const Vec3<T>& half_extents, const Vec3<W>& s,
                                  const Vec3<W>& from, const RayFrame<W>& frame) {
     using std::max;
     using std::min;
     const FacetMesh<T>& mesh = *hull.points.facets();
     const Vec3<W> guess = normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z));
-    // Corners are rounded as the ray sees them; hulls may be far from their own origin.
+    // Corners are rounded relative to the ray; hulls may be far from the origin of their frame.
     const T R = half_extents.norm();
     const W rounding =
         W(T(2) * tolerance::epsilon<T>) * (W(R) + Vec3<W>(from - s).cwiseAbs().sum());
@@ -66,7 +66,7 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
     const auto plane = mesh.template numbers<Row::normals, Row::size - Row::normals>(at);
     facet.in_shape = Vec3<W>(plane[0], plane[1], plane[2]);
     facet.normal = frame.into(facet.in_shape);
-    // Seen edge-on, the normal must be the corners' to the last digit.
+    // The normal of a facet seen edge-on must be exactly that of its corners.
     const Mask<W> steep = facet.enters & !(facet.normal.z() > W(least_facing));
     facet.supported = facet.enters & (plane[Row::supported - Row::normals] > W(0)) & !steep;
     const auto replace_normal = [&](const Mask<W>& lanes, const Vec3<W>& normal) {
@@ -78,7 +78,7 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
     const Mask<W> has_normal = facet.normal.squaredNorm() > W(0);
     facet.known &= has_normal;
     facet.enters &= has_normal;
-    // Between the corners, however steep the plane.
+    // Limited to the heights of the corners, however steep the plane is.
     const auto& [a, b, c] = corners;
     const W z = select(facet.normal.z() > W(0), facet.normal.z(), W(1));
     facet.height = min(max(W(a.dot(facet.normal) / z), min(a.z(), min(b.z(), c.z()))),
@@ -89,15 +89,15 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
     return facet;
   }
 
-  /// The line meets a facet's plane, moved out by the radius, at a point whose foot on the facet
-  /// gives the direction to the next facet. Between two facets that point to each other is their
-  /// edge.
+  /// Finds the point where the line meets a facet's plane, moved out by the radius. The foot of
+  /// that point on the facet gives the direction to the next facet. If two facets lead to each
+  /// other, the edge between them is the result.
   static EnteredFacet<W> around(const Core& hull, T radius, const Vec3<T>& half_extents,
                                 const Vec3<W>& s, const Vec3<W>& from, const RayFrame<W>& frame) {
     const FacetMesh<T>& mesh = *hull.points.facets();
     const Vec3<W> guess = normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z));
-    // Facets count as supported if they are thick compared with the hull; they must also be thick
-    // compared with the radius, or rounding decides on which of them the foot is.
+    // Facets are stored as supported if they are thick relative to the hull; they must also be
+    // thick relative to the radius; otherwise rounding decides which of them contains the foot.
     const T R = half_extents.maxCoeff();
     const bool tells = T(4) * (R - radius) >= R;
 
@@ -105,7 +105,7 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
     facet.normal = Vec3<W>(W(0), W(0), W(1));
     W at = start(mesh, guess, frame, 0), last = W(-1);
     Mask<W> open = Mask<W>(true), stepped = Mask<W>(false);
-    // The last step crossed this edge, left this corner behind, and has its foot there.
+    // The edge that the last step crossed, the corner that it left behind, and its foot.
     Vec3<W> begin = Vec3<W>::Zero(), end = begin, behind = begin, foot = begin;
     const auto answer = [&](const Mask<W>& lanes, const Vec3<W>& a, const Vec3<W>& b,
                             const Vec3<W>& c, const Vec3<W>& d, const Mask<W>& has_d) {
@@ -182,9 +182,9 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
  private:
   using Row = typename FacetMesh<T>::Facet;
 
-  /// If the line passes an edge within rounding, the facet beyond it is entered as well, at a
-  /// distance that is rounded less if it faces the ray more: a facet nearly edge-on to the ray has
-  /// a plane that rounding may let the line cross long before the edge.
+  /// If the line passes an edge within rounding, it also enters the facet beyond, whose distance is
+  /// rounded less if it faces the ray more: due to rounding, the line may cross the plane of a
+  /// facet seen nearly edge-on long before the edge.
   static void settle(const FacetMesh<T>& mesh, const Vec3<W>& from, const RayFrame<W>& frame,
                      const Mask<W>& at_edge, const W& rounding, W& at,
                      std::array<Vec3<W>, 3>& corners) {
@@ -232,16 +232,16 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
     return {corner(0), corner(1), corner(2)};
   }
 
-  /// The neighbour beyond the third edge, the second, or else the first.
+  /// Returns the neighbour beyond the third edge, the second edge, or else the first.
   template <class Numbers>
   static W beyond(const Numbers& row, const Mask<W>& second, const Mask<W>& third) {
     return select(third, row[Row::neighbours + 2],
                   select(second, row[Row::neighbours + 1], row[Row::neighbours]));
   }
 
-  /// Tilt of the guess towards the ray where a walk begins: little, so that most guesses at right
-  /// angles to the ray face it; and more after a facet that faces away, which is less near but
-  /// faces the ray more surely.
+  /// Tilts of the guess towards the ray at the start of a walk. The first is small, so that most
+  /// guesses perpendicular to the ray face it. If the facet found faces away, larger tilts follow:
+  /// their facets are less near, but face the ray more surely.
   static constexpr std::array<T, 3> tilts = {T(1) / T(32), T(1) / T(2), T(4)};
   static constexpr int restarts = static_cast<int>(tilts.size()) - 1;
   static W start(const FacetMesh<T>& mesh, const Vec3<W>& guess, const RayFrame<W>& frame,
@@ -249,11 +249,11 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
     return mesh.facing(Vec3<W>(guess + frame.z * W(tilts[static_cast<std::size_t>(attempt)])));
   }
 
-  /// The sine below which a facet counts as seen edge-on; a rounded one, as facing away: the line
+  /// Sine below which a facet counts as seen edge-on or, if rounded, as facing away: the line
   /// crosses its moved plane a thousand radii from it.
   static constexpr T least_facing = T(1) / T(1024);
-  /// Walks of regular triangulations end by themselves, but for rounding; from a start that is
-  /// near they are short. Longer ones continue without known facets.
+  /// Walks of regular triangulations end by themselves, except for rounding, and are short from a
+  /// near start. Casts whose walk is longer continue without known facets.
   static constexpr int max_steps = 64;
 };
 

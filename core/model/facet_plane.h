@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A facet of a polytope that a line enters, and its supporting plane. A guess for the solvers,
-// which verify it by the support mapping, or by results stored when the polytope was made.
+// A facet of a polytope that a line enters, and its supporting plane: a guess, which the solvers
+// verify by the support mapping, or by results stored with the polytope.
 #pragma once
 
 #include "core/model/line_cast.h"
@@ -12,25 +12,25 @@ namespace minkray {
 /// Expressed in the ray's frame: the ray runs down the z axis.
 template <class W>
 struct EnteredFacet {
-  Mask<W> known = Mask<W>(false);  ///< there is an answer
-  /// The line passes through the facet; of `around`, through the facet moved outwards, if that is
+  Mask<W> known = Mask<W>(false);  ///< a result was found
+  /// The line passes through the facet or, for `around`, through the facet moved outwards, if it is
   /// supported.
   Mask<W> enters = Mask<W>(false);
-  /// Known: no point of the polytope is further along the facet's normal than `corner`.
+  /// Proven: no point of the polytope is further along the facet's normal than `corner`.
   Mask<W> supported = Mask<W>(false);
-  /// Outward normal of the facet, of unit length. For a line that passes by, one at right angles
-  /// to it, with the line beyond the polytope in that direction.
+  /// Outward unit normal of the facet. For a line that misses, a direction perpendicular to the
+  /// line in which the line is beyond the polytope.
   Vec3<W> normal = Vec3<W>::Zero();
   Vec3<W> in_shape = Vec3<W>::Zero();  ///< the normal in the shape's frame
   W height = W(0);                     ///< the line enters at lambda = -height, if it does
-  Vec3<W> corner = Vec3<W>::Zero();    ///< one of the facet's
+  Vec3<W> corner = Vec3<W>::Zero();    ///< a corner of the facet
   /// Adjacent corners.
   std::array<Vec3<W>, 3> neighbours = {Vec3<W>::Zero(), Vec3<W>::Zero(), Vec3<W>::Zero()};
   std::array<Mask<W>, 3> there = {Mask<W>(false), Mask<W>(false),
                                   Mask<W>(false)};  ///< mask of the valid ones
 };
 
-/// The supporting plane of the facet that a line enters, to know it again.
+/// Stores the supporting plane of the facet that a line enters, to recognise it.
 template <class W>
 class FacetPlane {
  public:
@@ -45,7 +45,8 @@ class FacetPlane {
   Mask<W> is_known(const Vec3<W>& n) const { return supported_ & is_normal(n); }
   const Vec3<W>& corner() const { return corner_; }
 
-  /// n in the shape's frame: there and back, the facet's normal would be rounded.
+  /// Converts n to the shape's frame. The facet's normal is stored in that frame, since conversion
+  /// there and back would round it.
   Vec3<W> to_shape(const Vec3<W>& n, const RayFrame<W>& frame) const {
     return select<W>(is_normal(n), in_shape_, frame.out_of(n));
   }
@@ -59,10 +60,11 @@ class FacetPlane {
   Mask<W> supported_ = Mask<W>(false);
 };
 
-/// This one is for polytopes without any. Others have `known`, whether there is a facet for a line;
-/// `entered`, the facet of the polytope; and `around`, one that is near where the line meets the
-/// polytope rounded by a radius (but for boxes: closed forms answer them). The line passes `from`,
-/// which is s from the bounding ball's centre.
+/// Facets of a core; this template is for polytopes without stored ones. Specialisations have
+/// `known`, true if there are facets; `entered`, the facet that the line enters; and `around`, a
+/// facet near the point where the line meets the polytope rounded by a radius (except for boxes,
+/// which have closed forms). The line passes through `from`, at s relative to the bounding ball's
+/// centre.
 template <class W, class Core>
 struct Facets {
   static constexpr bool some = false;

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: MIT
-// Flat summands of sums of ellipsoids: across a disk's axis its support point jumps from one side
-// to the other, and Newton's method with it. Where a step leads across, the axis itself comes next.
+// Flat summands of sums of ellipsoids: where the direction crosses a disk's axis, the support point
+// jumps from one side of the disk to the other, and Newton's method with it. If a step crosses the
+// axis, the axis itself is the next direction.
 #pragma once
 
 #include "core/model/sum_features.h"
 
 namespace minkray {
 
-/// A direction across a flat summand, in which its support point jumps to the other side.
+/// The axis of a flat summand: a direction in which its support point jumps to the other side.
 template <class W>
 struct Kink {
   Mat3<W> F = Mat3<W>::Zero();
   Vec3<W> axis = Vec3<W>::Zero();
   Mask<W> here = Mask<W>(false);    ///< the requested direction is exactly the kink's axis
-  Mask<W> solved = Mask<W>(false);  ///< and is hit there
+  Mask<W> solved = Mask<W>(false);  ///< the model is hit in that direction
   Mask<W> tried = Mask<W>(false);
 };
 
-/// Lanes in which all features have the flat summand that was given to them at the kink.
+/// Lanes in which all features with a weight have exactly the kink's flat summand.
 template <class W>
 Mask<W> all_have(const SumFeatures<W>& features, const Kink<W>& kink,
                  const std::array<W, 4>& weights) {
@@ -38,13 +39,13 @@ Mask<W> all_have(const SumFeatures<W>& features, const Kink<W>& kink,
   return have;
 }
 
-/// If the step from `before` to m leads across the axis of a flat summand, the axis comes next; if
-/// the model is not hit there either, a direction near it.
+/// If the step from `before` to m crosses the axis of a flat summand, sets m to the axis or, if the
+/// model was not hit there, to a direction near it.
 template <class W>
 void pass_kinks(const SumFeatures<W>& features, Kink<W>& kink, const Vec3<W>& before,
                 const Mask<W>& open, Vec3<W>& m) {
   using T = Lane<W>;
-  // Distance from a kink at which the iteration continues, relative to the step that was wanted.
+  // Distance from a kink at which the iteration continues, relative to the wanted step.
   constexpr T kink_margin = T(1) / T(8);
   const Mask<W> leaves = open & kink.here;
   if (any(leaves))

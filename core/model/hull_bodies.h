@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The bodies whose translates a hull cast supports: a ball and an ellipsoid, each with its support
-// function and the normals where the ray meets it alone, or swept along an edge. docs/forms.md
-// derives them. The frame is hull_cast.h's.
+// The bodies that a hull cast supports: a ball and an ellipsoid. Each has its support function and
+// the normals where the ray meets the body alone, or swept along an edge. docs/forms.md derives
+// them. The frame is hull_cast.h's.
 #pragma once
 
 #include "core/query/ray_frame.h"
@@ -14,13 +14,14 @@ template <class W>
 struct RoundBody {
   W radius;
 
-  /// Support function along m, of unit length but for rounding.
+  /// Support function along m, which has unit length up to rounding.
   W support_function(const Vec3<W>& m) const {
     return radius * (W(Lane<W>(0.5)) * (W(1) + m.squaredNorm()));
   }
   Vec3<W> support_point(const Vec3<W>& m) const { return m * radius; }
 
-  /// The normal, of unit length, where the ray meets the body around c, or across from it.
+  /// Unit normal where the ray meets the body around c; if the ray passes by, the body's normal
+  /// towards the ray and perpendicular to it.
   Vec3<W> alone(const Vec3<W>& c) const {
     using std::max;
     using std::sqrt;
@@ -28,8 +29,9 @@ struct RoundBody {
     return unit<W>({-c.x(), -c.y(), sqrt(max(den, W(0)))});
   }
 
-  /// Answers for the cylinder that the body sweeps along e. `touch` is where, seen from the body's
-  /// centre, the cylinder is met; if it is passed by, where one grown to be touched would be.
+  /// Same as `alone`, for the cylinder that the body sweeps along e. `touch` is the point, relative
+  /// to the body's centre, where the ray meets the cylinder or, if it passes by, where it would
+  /// touch a larger one.
   Vec3<W> swept(const Vec3<W>& c, const Vec3<W>& e, const W& length, Vec3<W>& touch) const {
     using std::abs;
     using std::max;
@@ -55,8 +57,8 @@ struct EllipsoidBody {
   Mat3<W> F;
 
   W support_function(const Vec3<W>& m) const { return (F.transpose() * m).norm(); }
-  /// Uses a unit vector, so that the result is a point of the ellipsoid even where F^T m is
-  /// nothing but rounding. For a disk along its axis: the centre.
+  /// Uses a unit vector, so that the result is a point of the ellipsoid even if F^T m consists of
+  /// rounding only. For a disk along its axis: the centre.
   Vec3<W> support_point(const Vec3<W>& m) const {
     const Vec3<W> u = F.transpose() * m;
     const Vec3<W> support_point = F * unit<W>(u);
@@ -64,15 +66,15 @@ struct EllipsoidBody {
     return any(along) ? select<W>(along, Vec3<W>(Vec3<W>::Zero()), support_point) : support_point;
   }
 
-  /// True if F is a disk and u = F^T m zero but for rounding.
+  /// True if F is a disk and u = F^T m is zero up to rounding.
   Mask<W> is_along_axis(const Vec3<W>& u) const {
     const Mask<W> is_disk = F.col(2).cwiseAbs().sum() == W(0);
     if (!any(is_disk)) return is_disk;
     return is_disk & (u.cwiseAbs().sum() <= F.cwiseAbs().sum() * W(tolerance::flat_disk<Lane<W>>));
   }
 
-  /// For two disks in one plane, across m: finds the point between their centres, b + share e,
-  /// with a disk around it that the ray meets, and whether there is one.
+  /// For two disks in a plane perpendicular to m: finds a point b + share e between their centres
+  /// such that the ray meets the disk around it. `meets` is true if there is one.
   void between_disks(const Vec3<W>& m, const Vec3<W>& b, const Vec3<W>& e, W& share,
                      Mask<W>& meets) const {
     const Mask<W> along = is_along_axis(F.transpose() * m);
@@ -94,8 +96,8 @@ struct EllipsoidBody {
     using std::abs;
     using std::max;
     using std::sqrt;
-    // With N_kl = f_k x f_l: det = sum N_kl.z^2, adj c and the rest of the minors of A = F F^T are
-    // sums of products of these, which keep the digits that A itself loses for needles.
+    // With N_kl = f_k x f_l, the determinant is the sum of N_kl.z^2; adj c and the other minors of
+    // A = F F^T are sums of products of these, which keep digits that A itself loses for needles.
     W det(0), off(0);
     Vec3<W> across = Vec3<W>::Zero(), adj = Vec3<W>::Zero();
     for (int k = 0; k < 3; ++k) {

@@ -25,12 +25,12 @@ template <class W>
 struct HullCastHit {
   Vec3<W> m = Vec3<W>::Zero();     ///< of unit length
   Mask<W> found = Mask<W>(false);  ///< hit or separation is certain; otherwise the best known
-  std::array<W, 3> weights = {W(0), W(0),
-                              W(0)};  ///< of the others' support points; the newest's completes 1
+  std::array<W, 3> weights = {
+      W(0), W(0), W(0)};  ///< of the others' support points; with the newest's, the sum is 1
   W height = W(std::numeric_limits<Lane<W>>::infinity());  ///< height of the hull's plane
 };
 
-/// The cast; points within `rounding` of the ray count as on it.
+/// Solves the cast. Points within `rounding` of the ray count as on it.
 template <class W, class Body>
 class HullCast {
  public:
@@ -43,9 +43,9 @@ class HullCast {
         rounding_(rounding),
         beaten_by_(rounding * W(T(1) / T(4))) {}
 
-  /// The newest body is likely to be among the hit's carriers. A candidate that another body
-  /// reaches beyond is joined by that body; should this not lead to the hit, all candidates are
-  /// tried, those with the newest body first.
+  /// The newest body is likely to be among the hit's carriers. If another body reaches beyond a
+  /// candidate's plane, it is added to the candidate. If this does not lead to the hit, all
+  /// candidates are tried, those with the newest body first.
   HullCastHit<W> solve() {
     const Furthest newest = {newest_, W(0), nowhere(), Mask<W>(true)};
     const Furthest second = alone(newest);
@@ -58,8 +58,8 @@ class HullCast {
     return hit_;
   }
 
-  /// Does what solve() does where the hit is known in some lanes, and likely to be between the
-  /// newest body and the first of the others in the rest.
+  /// Same as solve(), if the hit is known in some lanes and is likely to be between the newest body
+  /// and the first of the others in the rest.
   HullCastHit<W> solve_from(const HullCastHit<W>& known) {
     hit_ = known;
     if (!all(hit_.found)) edge({newest_, W(0), nowhere(), Mask<W>(true)}, other(0));
@@ -113,9 +113,9 @@ class HullCast {
     return best;
   }
 
-  /// Takes the candidate of direction m where it is better than the hit so far: where `meets` (its
-  /// bodies meet the ray) and no other body reaches further than its carrier, it is the hit.
-  /// Answers the body that reaches furthest of all but the newest.
+  /// Takes the candidate of direction m in lanes where it is better than the hit so far. The
+  /// candidate is the hit where its bodies meet the ray (`meets`) and no other body reaches further
+  /// than its carrier. Returns the body that reaches furthest, except the newest.
   Furthest consider(const Vec3<W>& m, const Vec3<W>& carrier, const Mask<W>& meets,
                     const std::array<W, 3>& weights, const Mask<W>& candidate) {
     using std::max;
@@ -127,7 +127,7 @@ class HullCast {
     const W out_of_reach = W(std::numeric_limits<T>::max());
     const W height = select(ahead, W(value / select(ahead, m.z(), W(1))),
                             select(value < W(0), W(-out_of_reach), out_of_reach));
-    // A certain separation holds wherever its bodies are met.
+    // A separation by more than rounding is valid even if the bodies do not meet the ray.
     const Mask<W> separates = (!ahead) & ((value < -rounding_) | (meets & (value < W(0))));
     const Mask<W> useful = unbeaten & ((ahead & meets) | separates);
     const Mask<W> wins = candidate & (!hit_.found) & (useful | (height < hit_.height));
@@ -138,14 +138,14 @@ class HullCast {
     return furthest;
   }
 
-  /// One.
+  /// Candidate of one body.
   Furthest alone(const Furthest& a) {
     std::array<W, 3> weights;
     for (std::size_t k = 0; k < 3; ++k) weights[k] = select(a.at[k], W(1), W(0));
     return consider(body_.alone(a.c), a.c, Mask<W>(true), weights, a.some);
   }
 
-  /// Two: the cylinder between them.
+  /// Candidate of two bodies: the cylinder between them.
   Furthest edge(const Furthest& a, const Furthest& b) {
     using std::sqrt;
     const Mask<W> candidate = a.some & b.some;
@@ -166,7 +166,7 @@ class HullCast {
     return consider(m, a.c, meets, weights, candidate & (E > W(0)));
   }
 
-  /// Three: the plane that touches them.
+  /// Candidate of three bodies: the plane that touches them.
   void face(const Furthest& a, const Furthest& b, const Furthest& c) {
     Mask<W> candidate = a.some & b.some & c.some;
     for (std::size_t k = 0; k < 3; ++k) candidate &= !(b.at[k] & c.at[k]);
@@ -189,9 +189,9 @@ class HullCast {
   Vec3<W> newest_;
   const Translates<W>& others_;
   W rounding_;
-  /// Margin by which another body may reach further than a candidate's carrier, whose plane is
-  /// moved out to it: as much too early. At first the rounding of two reaches, a quarter of
-  /// rounding_.
+  /// Margin by which another body may reach beyond a candidate's carrier. The candidate's plane is
+  /// moved out to that body, so the hit is too early by as much. Initially the rounding of two
+  /// reaches, a quarter of rounding_.
   W beaten_by_;
   HullCastHit<W> hit_;
 };

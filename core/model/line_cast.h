@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The loop of all solvers on jets (docs/forms.md). A supporting plane in direction n gives a
-// rigorous lower bound of the hit. The ray hits a model, the hull of the features found so far,
-// later (about there, if features are not exact); that hit's normal is the next n. The search ends
-// when both meet. W is a number or a packet, one ray per lane. Finished lanes take part without
+// rigorous lower bound of the hit. The hit on a model, the hull of the features found so far, is an
+// upper bound (approximately, if features are not exact); its normal is the next n. The search ends
+// when both meet. W is a number or a packet, one ray per lane; finished lanes take part without
 // effect.
 #pragma once
 
@@ -15,12 +15,12 @@ namespace minkray {
 /// Hit of a line with a model.
 template <class W>
 struct ModelHit {
-  Vec3<W> m = Vec3<W>::Zero();  ///< the normal, of unit length; zero or not finite: none was found
-  W height = W(0);              ///< the line enters the model at lambda = -height
-  Mask<W> certain = Mask<W>(false);  ///< `height` is the model's, up to rounding
-  /// The carriers of the hit are parts of the shape, so that it bounds the shape's hit.
+  Vec3<W> m = Vec3<W>::Zero();       ///< unit normal; zero or not finite: none was found
+  W height = W(0);                   ///< the line enters the model at lambda = -height
+  Mask<W> certain = Mask<W>(false);  ///< `height` is that of the model, up to rounding
+  /// The carriers of the hit are parts of the shape: the hit is an upper bound of the shape's hit.
   Mask<W> inner = Mask<W>(true);
-  Mask<W> repeated = Mask<W>(false);  ///< the newest feature had been seen before
+  Mask<W> repeated = Mask<W>(false);  ///< the newest feature was found before
 };
 
 /// First hit of the whole line s + lambda r with the shape.
@@ -30,13 +30,13 @@ struct LineHit {
   Mask<W> miss = Mask<W>(false);  ///< neither hit nor miss: exhausted
   /// Exhausted because the line is tangent to the shape within rounding: `normal` is the plane's.
   Mask<W> tangent = Mask<W>(false);
-  W lambda = W(-std::numeric_limits<Lane<W>>::infinity());       ///< a lower bound, rigorous
+  W lambda = W(-std::numeric_limits<Lane<W>>::infinity());       ///< rigorous lower bound
   W lambda_above = W(std::numeric_limits<Lane<W>>::infinity());  ///< the model's hit
   Vec3<W> normal = Vec3<W>::Zero();
   W supports = W(0);
 };
 
-/// Lane by lane.
+/// Selects a where the condition is true, else b, lane by lane.
 template <class W>
 LineHit<W> pick(const Mask<W>& condition, const LineHit<W>& a, const LineHit<W>& b) {
   const Mask<W> other = !condition;
@@ -49,19 +49,19 @@ LineHit<W> pick(const Mask<W>& condition, const LineHit<W>& a, const LineHit<W>&
           select(condition, a.supports, b.supports)};
 }
 
-/// A model may calculate in a frame of its own, and all vectors here are in that frame; the
-/// result's normal is in the shape's. Members of a model:
-/// - `to_frame(n)`, `to_shape(n)`: a direction of the shape's frame in its own, and back;
+/// A model may compute in its own frame. All vectors here are in that frame, except the result's
+/// normal, which is in the shape's. Members of a model:
+/// - `to_frame(n)`, `to_shape(n)`: convert a direction from the shape's frame to its own, and back;
 /// - `against_ray(n)`: the component of n against the ray's direction;
-/// - `begin(half_extents)`: the state before the first support: a first direction, and a hit if
-/// the model has features of the shape already; half_extents are the shape's;
-/// - `support(n, wanted)`: the shape's support in direction n of unit length, relative to the ray's
-///   closest approach s, as a feature with support_function(n) and support_point(n), its support
-///   point; in lanes that are not wanted, any feature;
-/// - `step(feature, n, iteration)`: the model's hit once the feature is a part of it.
+/// - `begin(half_extents)`: the ModelHit before the first support call: a first direction, and a
+///   hit if the model already has features of the shape; half_extents are the shape's;
+/// - `support(n, wanted)`: the shape's feature in the unit direction n, relative to the ray's
+///   closest approach s, with support_function(n) and support_point(n); any feature in lanes that
+///   are not wanted;
+/// - `step(feature, n, iteration)`: adds the feature to the model and returns the model's hit.
 ///
-/// The search ends beyond lambda_end; R is the size that rounding refers to. Only `open` lanes
-/// count. `observer` may be NoObserver, or else receives each plane.
+/// The search ends beyond lambda_end. Rounding is relative to R. Only `open` lanes count.
+/// `observer` receives each plane, unless it is NoObserver.
 template <class W, class Model, class Observer>
 LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const W& lambda_end,
                          Lane<W> R, Mask<W> open, int max_iterations, Observer&& observer) {
@@ -77,8 +77,8 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
   Vec3<W> n = model_hit.m;
   W best_slope(0);  // of result.normal's plane
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
-    // The supporting plane of direction n: it clips the line, or separates (where it leans away
-    // from the ray: all of the line in the bounding ball).
+    // The supporting plane in direction n clips the line or separates it. If the plane leans away
+    // from the ray, it separates all of the line within the bounding ball.
     const auto feature = model.support(n, open);
     result.supports += select(open, W(1), W(0));
     const W h = feature.support_function(n), z = model.against_ray(n);
@@ -99,7 +99,8 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
     open &= !misses;
     if (!any(open)) break;
 
-    // Lanes in which the model, as it was, is hit no further than rounding beyond the best plane.
+    // Ends the search in lanes where the hit on the model is at most rounding beyond the best
+    // plane.
     const auto meets = [&](const W& slope, const W& within) {
       const W along = select(model_hit.certain, W(-model_hit.height - result.lambda), W(0));
       const W missing = along * min(slope, max(best_slope, W(0)));
@@ -107,9 +108,10 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
                           (along <= gap_along);
       const Mask<W> contradicts = missing < W(-16) * gap;
       result.hit |= met & !contradicts;
-      // If the plane is beyond it by rounding, the model is right: it lies between points. But
-      // where the model's own plane is so nearly along the line that the model is off by more than
-      // the best plane's rounding, that plane is, and the model bounds the hit from below.
+      // If the best plane is beyond the model's hit by rounding, the model's hit is taken: it lies
+      // between points of the shape. But if the model's own plane is so nearly along the line that
+      // the model is off by more than the best plane's rounding, the best plane is taken, and the
+      // model bounds the hit from below.
       const Mask<W> inner = met & model_hit.inner & !contradicts;
       const Mask<W> closer = inner & (along * best_slope >= W(-4) * gap);
       const W above = select(closer, W(-model_hit.height), result.lambda);
@@ -138,9 +140,9 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
   return result;
 }
 
-/// Returns the normal, of unit length, where the line s + lambda r first meets the ellipsoid
-/// around the origin with these radii, all positive; if the line passes by, the ellipsoid's normal
-/// towards it, at right angles to r. `meets` is the mask of the former.
+/// Returns the unit normal where the line s + lambda r first meets the ellipsoid around the origin
+/// with these radii, all positive; if the line passes by, the ellipsoid's normal towards it,
+/// perpendicular to r. `meets` is the mask of lines that meet it.
 template <class W>
 Vec3<W> normal_on_ellipsoid(const Vec3<Lane<W>>& radii, const Vec3<W>& s, const Vec3<W>& r,
                             Mask<W>& meets) {
@@ -160,9 +162,8 @@ Vec3<W> normal_on_ellipsoid(const Vec3<Lane<W>>& radii, const Vec3<W>& s, const 
   return all(some) ? n : select<W>(some, n, Vec3<W>(-r));
 }
 
-/// Approximately the same for a shape with these half extents: a first direction for the support
-/// mapping, of unit length. Extents that are negligible next to the largest are increased
-/// slightly.
+/// Returns approximately the same for a shape with these half extents: a first unit direction for
+/// the support mapping. Extents that are negligible next to the largest are increased slightly.
 template <class W>
 Vec3<W> normal_on_extents(const Vec3<Lane<W>>& half_extents, const Vec3<W>& s, const Vec3<W>& r) {
   using std::max;

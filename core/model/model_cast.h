@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A ray cast with any of the models: from the line's first meeting with the shape to the answer for
-// a ray, which begins and ends somewhere. For one ray, or for a packet of them.
+// Ray cast with any of the models: finds the line's first hit with the shape, and converts it to
+// the result of a ray, which has a beginning and an end. For one ray, or for a packet of rays.
 #pragma once
 
 #include "core/model/line_cast.h"
@@ -14,17 +14,17 @@ struct CastLanes {
   Mask<W> hit = Mask<W>(false);
   Mask<W> inside = Mask<W>(false);
   Mask<W> miss = Mask<W>(false);
-  /// Hit, but no point of the shape is known that bounds it from above.
+  /// Hit, but without an upper bound by points of the shape.
   Mask<W> by_model = Mask<W>(false);
-  /// Inside, but between planes so steep that rounding decides, as where the line runs in a side.
+  /// Inside, but between planes so steep that rounding decides, as for a line within a face.
   Mask<W> uncertain = Mask<W>(false);
   W t_base = W(0), t_offset = W(0), offset_lo = W(0), offset_hi = W(0);
   Vec3<W> normal = Vec3<W>::Zero();
   W supports = W(0);
 };
 
-/// Casts a ray at a shape whose bounds it meets; the ray is seen from the bounding ball's centre,
-/// and half_extents are the bounding box's. make_model(s, r) makes a model of the shape seen from s
+/// Casts a ray at a shape whose bounds it meets. The ray is relative to the bounding ball's centre;
+/// half_extents are the bounding box's. make_model(s, r) makes a model of the shape seen from s
 /// along r. Only `castable` lanes are cast.
 template <class W, class MakeModel, class Observer>
 CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
@@ -61,17 +61,17 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
     auto model = make_model(from, direction);
     return first_on_line<W>(model, half_extents, until, R, open, max_iterations, watch(sign));
   };
-  // A tangent line within rounding is replaced by one that is no further away and enters at a
-  // steeper angle.
+  // A line that is tangent within rounding is replaced by one that is no further away and enters at
+  // a steeper angle.
   const auto not_touching = [&](const LineHit<W>& found, const Vec3<W>& direction, const W& until,
                                 const W& sign) {
     const Vec3<W> pushed = s - found.normal * W(tolerance::tangent_push<T> * R);
     LineHit<W> again = first_along(pushed, direction, until, found.tangent, sign);
     again.supports += found.supports;
-    // Thinner than the push: the line left through the other side, and nothing is known of it.
+    // If the shape is thinner than the push, the line left it on the other side: no proven miss.
     again.miss &= !(again.normal.dot(found.normal) < W(0));
-    // The plane found there, where the line itself crosses it: later, but not behind the shape's
-    // end or the ray's.
+    // The hit is where the original line crosses the plane that was found: later, but not beyond
+    // the end of the shape or the ray.
     auto model = make_model(s, direction);
     const Vec3<W> ahead = model.to_frame(direction);  // NOLINT: of some models no reference
     const W last = model.support(ahead, found.tangent).support_function(ahead);
@@ -96,8 +96,8 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   result.supports = entry.supports;
   result.normal = entry.normal;
   result.miss = entry.miss;
-  // Beyond the ball's far side: joined with the ball's own plane there, the two leave the line no
-  // room, and their sum runs along it.
+  // If the plane cuts the line beyond the ball's far side, adds the ball's tangent plane there: the
+  // two leave no part of the line, and their sum is a plane along it.
   const W z = -entry.normal.dot(r);
   if (any(entry.miss)) {
     const Vec3<W> out = s + r * depth;
@@ -109,24 +109,25 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   }
   const Mask<W> enters = entry.hit & (entry.lambda >= near.lambda_min);
   result.hit = enters;
-  // If planes are so steep that their rounding is long, the model's hit is the better result: it
-  // lies between points of the shape. But not where the model is the steeper one.
+  // If planes are so steep that their rounding is large along the ray, the model's hit is the
+  // better result, since it lies between points of the shape; except where the model's plane is
+  // steeper.
   Mask<W> bounded = entry.lambda_above < W(std::numeric_limits<T>::infinity());
   const W gap = select(bounded, W(entry.lambda_above - entry.lambda), W(0));
   bounded &= gap * z <= W(T(4) * tolerance::jet_gap<T> * R);
-  // If the two are apart, the model had only a plane nearly along the ray, which decides nothing.
+  // If the two hits are apart, the model had only a plane nearly along the ray: not a proven hit.
   result.hit &= bounded | !(entry.lambda_above < W(std::numeric_limits<T>::infinity()));
   result.t_offset = near.t_offset(select(bounded, entry.lambda_above, entry.lambda));
-  // Both ends are known to the rounding of a plane's offset, which is longer along a slanted ray.
+  // Both bounds have the rounding of a plane's offset, which is larger along a slanted ray.
   const W rounding =
       (W(tolerance::plane_rounding<T> * R) + near.loss) / max(z, W(tolerance::least_slope<T>));
-  // Rays that were turned round are counted down.
+  // On reversed rays, t decreases.
   const W digits = copysign(near.offset_rounding(result.t_offset), near.t_per_length);
   result.offset_lo = near.t_offset(entry.lambda - rounding) - digits;
   result.by_model = result.hit & !(entry.lambda_above < W(std::numeric_limits<T>::infinity()));
   result.offset_hi = near.t_offset(W(entry.lambda_above + rounding)) + digits;
 
-  // The line enters before the ray begins: where does it leave?
+  // The line enters before the ray begins: finds where it leaves.
   const Mask<W> began = entry.hit & !enters;
   if (!any(began)) return result;
   const Vec3<W> back = -r;
@@ -148,7 +149,7 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   return result;
 }
 
-/// One ray's answer.
+/// Result of a single ray.
 template <class T>
 CastResult<T> result_of(const CastLanes<T>& lanes) {
   CastResult<T> result;

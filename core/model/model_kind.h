@@ -11,15 +11,15 @@ enum class ModelKind : unsigned char {
   points,           ///< a polytope
   rounded_points,   ///< a rounded polytope
   translates,       ///< the hull of translates of one ellipsoid
-  gauge,            ///< known by its gauge
+  gauge,            ///< given by its gauge
   ellipsoid_sum,    ///< a sum of ellipsoids
   smooth,           ///< a smooth surface
   exact_sums,       ///< the hull of finitely many sums of ellipsoids
-  osculating_sums,  ///< any other shape: the same, but some of them only osculate
+  osculating_sums,  ///< any other shape: as exact_sums, but some sums only osculate
 };
 
-/// A description that chooses between models, on which no answer's correctness depends: supporting
-/// planes bound a shape and support points lie in it, whatever the shape.
+/// Returns the model that suits a shape. Correctness does not depend on this choice: supporting
+/// planes bound any shape, and support points lie in it.
 template <class T>
 ModelKind model_kind_of(const Shape<T>& shape);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From a shape and the kind of model that suits it to the model. Only what casts includes this.
+// Makes the model of a shape, of the kind that suits it. Included only by sources of casts.
 #pragma once
 
 #include "core/model/ellipsoid_sum_model.h"
@@ -44,7 +44,7 @@ auto with_model(const ShapeDefinition<Lane<W>>& definition, Use&& use) {
       return std::visit(
           [&]<class S>(const S& points) {
             if constexpr (declared_by<S>.facets || declared_by<S>.slabs)
-              return polytope(points);  // the facet is known that a line enters
+              return polytope(points);  // the facet that a line enters is known
             else
               return polytope(shape);
           },

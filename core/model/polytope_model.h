@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The model for polytopes: the hull of up to four vertices. A triangle of them that the ray passes
 // through is a portal, whose plane's normal is the next direction. While there is none, vertices
-// are rounded by balls that touch the planes they were found with from inside, as on a curved
-// shape. The balls shrink, so that this ends. If the polytope's facets are known, the first portal
-// is the one that the ray enters by.
+// become balls that touch their supporting planes from inside, as on a curved shape. The balls
+// shrink, so that this ends. If the polytope's facets are known, the first portal is the one that
+// the ray enters by.
 #pragma once
 
 #include <array>
@@ -73,7 +73,7 @@ class PolytopeModel {
     using std::max;
     using std::min;
     const Vec3<W>& newest = feature.c;
-    // Forget an older copy of the newest vertex.
+    // Removes an older copy of the newest vertex.
     ModelHit<W> hit;
     for (Kept& kept : kept_) {
       const Mask<W> same = kept.valid & (kept.c.x() == newest.x()) & (kept.c.y() == newest.y()) &
@@ -100,12 +100,12 @@ class PolytopeModel {
     Vec3<W> c = Vec3<W>::Zero();
     Vec3<W> n = Vec3<W>::Zero();  ///< the direction it was found in
     Mask<W> valid = Mask<W>(false);
-    Mask<W> carries = Mask<W>(false);  ///< the last hit
+    Mask<W> carries = Mask<W>(false);  ///< carries the last hit
   };
 
-  /// The highest triangle of the newest and two kept vertices that the ray passes through; its
-  /// normal. Where the newest is not new, rounding has the last word: edges are passed through by
-  /// what touches them.
+  /// Finds the highest triangle of the newest and two kept vertices that the ray passes through; m
+  /// is its normal. If the newest vertex is not new, rounding decides: a ray that touches an edge
+  /// passes through it.
   Mask<W> portal(const Vec3<W>& newest, const Mask<W>& repeated, Vec3<W>& m) {
     using std::max;
     using std::min;
@@ -127,7 +127,7 @@ class PolytopeModel {
       candidate &= normal.z() > W(0);
       candidate &= !beaten;
       m = select<W>(candidate, normal, m);
-      // Between the three, whatever rounding made of a sliver's normal.
+      // The hit is limited to the heights of the three, however rounded a sliver's normal is.
       lowest_ = select(candidate, min(newest.z(), min(a.c.z(), b.c.z())), lowest_);
       highest_ = select(candidate, max(newest.z(), max(a.c.z(), b.c.z())), highest_);
       a.carries |= candidate;
@@ -137,8 +137,8 @@ class PolytopeModel {
     return found;
   }
 
-  /// The normal where the ray meets the newest vertex's ball, or the cylinder between it and the
-  /// ball that reaches beyond it there.
+  /// Returns the normal where the ray meets the newest vertex's ball, or the cylinder between it
+  /// and a ball that reaches beyond it there.
   Vec3<W> rounded(const Vec3<W>& newest, const Vec3<W>& n) {
     using std::max;
     using std::sqrt;
@@ -172,7 +172,7 @@ class PolytopeModel {
     return select<W>(beaten, m, alone);
   }
 
-  /// The newest vertex takes a free place, or that of one which does not carry the hit.
+  /// Stores the newest vertex in a free place, or replaces a vertex that does not carry the hit.
   void replace(const Vec3<W>& newest, const Vec3<W>& n, int iteration) {
     Mask<W> placed(false);
     const auto place = [&](Kept& kept, const Mask<W>& here) {
@@ -189,13 +189,13 @@ class PolytopeModel {
     }
   }
 
-  /// Radii in units of R. Balls smaller than the least are as good as points.
+  /// Radii in units of R. Balls smaller than least_ball count as points.
   static constexpr T first_ball = T(1) / T(2);
   static constexpr T least_ball = T(1) / T(1024);
 
   using Known = Facets<W, Core>;
 
-  /// A call for a support point takes longer than a look-up of those in the directions of facets.
+  /// True if support points in the directions of facets are looked up: faster than a support call.
   static constexpr bool looks_up = declared_by<Core>.support_where;
 
   const Core& core_;
@@ -204,7 +204,7 @@ class PolytopeModel {
   W rounding_;
   W ball_, least_ball_;
   FacetPlane<W> first_;
-  W lowest_ = W(0), highest_ = W(0);  ///< of the portal's vertices
+  W lowest_ = W(0), highest_ = W(0);  ///< heights of the portal's vertices
   std::array<Kept, 3> kept_;
 };
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The model for smooth shapes, which jets only osculate: the newest jet's ellipsoid, and translates
 // of it for other patches seen in nearly the same direction, which touch their planes at their
-// support points. Converges as Newton's method does; a step to a lower plane is halved, which helps
-// since the planes' cuts are a concave function. Support points prove the hit: see `settled`.
+// support points. Converges like Newton's method. A step to a lower plane is halved, which helps
+// since the planes' cuts are a concave function of the direction. Support points prove the hit: see
+// `settled`.
 #pragma once
 
 #include "core/model/hull_cast.h"
@@ -55,7 +56,7 @@ class SmoothModel {
   }
 
   ModelHit<W> step(const Feature& feature, const Vec3<W>& n, int iteration) {
-    // A vertex has no curvature to go by: a small ball does.
+    // A vertex has no curvature: a small ball replaces it.
     const Mask<W> repeated = repeats(feature);
     shrink_ = select(repeated, W(shrink_ * W(T(0.1))), shrink_);
     if (iteration >= 3) shrink_ *= W(T(0.5));
@@ -115,9 +116,9 @@ class SmoothModel {
     return repeated;
   }
 
-  /// The support points of the carriers, joined by the hit's weights, are a point p of the shape:
-  /// hardly below the newest supporting plane and hardly off the ray. The remaining gain of the
-  /// iteration is half the product of its step and the distance from the ray.
+  /// True if the hit is proven: the carriers' support points, combined with the hit's weights, are
+  /// a point p of the shape, hardly below the newest supporting plane and hardly off the ray. The
+  /// remaining gain of the iteration is half the product of its step and p's distance from the ray.
   Mask<W> settled(const Feature& feature, const Vec3<W>& n, const HullCastHit<W>& on_hull) const {
     using std::sqrt;
     Vec3<W> p = feature.s;
@@ -128,10 +129,10 @@ class SmoothModel {
            (offset <= W(model_reach * R_));
   }
 
-  /// Takes back a step to a lower plane, or one that clearly overshoots: to where, between the two
-  /// directions, the support point's offset from the ray has no component along the step. The
-  /// direction as a function of that offset is interpolated (Hermite), from both ends' values and
-  /// Newton steps: where curvature vanishes, it is smooth and its inverse is not.
+  /// Shortens a step that leads to a lower plane or clearly overshoots: to the direction between
+  /// the two in which the support point's offset from the ray has no component along the step. That
+  /// direction is interpolated (Hermite) as a function of the offset, from the values and Newton
+  /// steps of both ends: where curvature vanishes, this function is smooth, but not its inverse.
   void step_back(const Feature& feature, const Vec3<W>& n, ModelHit<W>& hit) {
     using std::abs;
     using std::max;
@@ -169,7 +170,8 @@ class SmoothModel {
       const W there = from + (to - from) * u * u * (W(3) - W(2) * u) +
                       u * (W(1) - u) * (W(1) - u) * first - u * u * (W(1) - u) * last;
       const Mask<W> fits = overshoots & (there > min(from, to)) & (there < max(from, to));
-      // Across it as the model wants. Or else less of the best direction's own step.
+      // Perpendicular to the step, follows the model. Otherwise takes less of the best direction's
+      // own step.
       const W aside = here.x * -e_y + here.y * e_x;
       damping_ = select(back & worse, W(damping_ * W(T(0.5))), damping_);
       const W to_x = select(fits, W(there * e_x - aside * e_y),
@@ -184,9 +186,9 @@ class SmoothModel {
     best_lambda_ = select(worse, best_lambda_, lambda);
   }
 
-  /// Among directions along the ray (n.z = 0), where the model passes the ray by as well: the least
-  /// reach lies where its derivative along that circle changes sign. A step out of the arc between
-  /// two signs, or over half of it, is replaced by the secant's.
+  /// For directions perpendicular to the ray (n.z = 0) in which the ray misses the model, too: the
+  /// least reach lies where its derivative along that circle changes sign. A step that leaves the
+  /// arc between the two signs, or spans over half of it, is replaced by the secant's.
   void stay_between(const Feature& feature, const Vec3<W>& n, ModelHit<W>& hit) {
     using std::abs;
     const Mask<W> on_circle = (abs(n.z()) <= W(tolerance::model_rounding<T>)) &
@@ -194,7 +196,7 @@ class SmoothModel {
     if (!any(on_circle)) return;
     const W slope = n.x() * feature.s.y() - n.y() * feature.s.x();  // counter-clockwise
     const Mask<W> falls = on_circle & (slope < W(0)), rises = on_circle & (slope > W(0));
-    // An end that stays for a second time counts half (the Illinois variant).
+    // The slope of an end that stays a second time is halved (the Illinois variant).
     rising_.slope = select(falls & fell_, W(rising_.slope * W(T(0.5))), rising_.slope);
     falling_.slope = select(rises & rose_, W(falling_.slope * W(T(0.5))), falling_.slope);
     fell_ = falls;
@@ -225,7 +227,7 @@ class SmoothModel {
     }
   }
 
-  /// A direction along the ray.
+  /// A direction perpendicular to the ray.
   struct OnCircle {
     Vec3<W> n = Vec3<W>::Zero();
     W slope = W(0);
@@ -240,7 +242,7 @@ class SmoothModel {
   /// Distance from the ray, in units of R, up to which an osculating ellipsoid is trusted (cbrt
   /// epsilon).
   inline static const T model_reach = std::cbrt(tolerance::epsilon<T>);
-  /// Length of a step where the model's own would have led past the shape.
+  /// Length of a step if the model's own step would have led past the shape.
   static constexpr T far_step = T(4);
   static constexpr T infinity = std::numeric_limits<T>::infinity();
 

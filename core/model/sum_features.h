@@ -60,7 +60,7 @@ class SumFeatures {
     return repeated;
   }
 
-  /// From now on those with weights, which carry a hit, and the newest are there.
+  /// Keeps the newest feature and those with weights, which carry a hit.
   void keep(const std::array<W, 4>& weights) {
     Mask<W> placed(false);
     for (std::size_t k = 0; k < newest; ++k) {
@@ -73,7 +73,8 @@ class SumFeatures {
     }
   }
 
-  /// Turns the osculating ones in some lanes, but for the newest, into points; answers where.
+  /// Turns the osculating features in some lanes, except the newest, into points; returns the lanes
+  /// that changed.
   Mask<W> flatten_osculating(const Mask<W>& lanes) {
     Mask<W> flattened(false);
     for (std::size_t k = 0; k < newest; ++k) {
@@ -104,7 +105,8 @@ class SumFeatures {
             select<W>(lanes, Vec3<W>(Vec3<W>::Zero()), Vec3<W>(feature.sum.F[k].col(j)));
   }
 
-  /// Up to about 15 degrees between their directions, the ellipsoids of two patches go together.
+  /// Ellipsoids of two patches are used together if their directions differ by up to about 15
+  /// degrees.
   static constexpr T near_squared = T(1) / T(16);
 
   std::array<Feature, 4> features_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Casting the ray on the hull of up to four sums of ellipsoids by Newton's method, without support
+// Casts the ray at the hull of up to four sums of ellipsoids by Newton's method, without support
 // calls. docs/forms.md derives it. The frame is the ray's, as in hull_cast.h.
 #pragma once
 
@@ -17,8 +17,8 @@ class SumsCast {
   using Sum = EllipsoidSum<W>;
   using Solution = SumsHit<W>;
 
-  /// R is the bounding radius; `surrogate` an ellipsoid of the shape's extents, for points' lack of
-  /// curvature, and `shrink` how small it is taken.
+  /// R is the bounding radius. `surrogate` is an ellipsoid with the shape's extents that replaces
+  /// points, which have no curvature; it is scaled by `shrink`.
   SumsCast(const Features& features, T R, const Mat3<W>& surrogate, const W& shrink)
       : features_(features),
         R_(R),
@@ -26,9 +26,9 @@ class SumsCast {
         surrogate_(surrogate),
         shrink_(shrink) {}
 
-  /// The hit on the hull of the features. Where they are points, or translates of one ellipsoid,
-  /// that is one cast; elsewhere features are replaced, again and again, by translates of one
-  /// ellipsoid that joins their curvatures.
+  /// Returns the hit on the hull of the features. For points, or translates of one ellipsoid, one
+  /// hull cast suffices. Otherwise features are replaced repeatedly by translates of one ellipsoid
+  /// that combines their curvatures.
   Solution solve(const Vec3<W>& n) const {
     Mask<W> points(true), common(true);
     for (std::size_t i = 0; i < 4; ++i) {
@@ -58,7 +58,7 @@ class SumsCast {
  private:
   static constexpr std::size_t newest = Features::newest;
 
-  /// A feature as it looks from one direction.
+  /// Values of a feature in one direction.
   struct Look {
     Vec3<W> g = Vec3<W>::Zero();  ///< the support point, relative to the sum's centre
     W h = W(0);                   ///< support function relative to the sum's centre
@@ -74,7 +74,7 @@ class SumsCast {
     Mask<W> careful = Mask<W>(false);  ///< the next step from there must not be Newton's
   };
 
-  /// The hit on translates of one body; `certain` where it was found.
+  /// Returns the hit on translates of one body; `certain` in lanes where it was found.
   template <class Body>
   Solution cast(const Body& body, const std::array<Vec3<W>, 4>& c) const {
     Translates<W> others;
@@ -148,8 +148,8 @@ class SumsCast {
       if (!any(goes)) continue;
       EllipsoidBody<W> body{
           factor<W>(mean.H * mean.h + mean.G * outer + mean.g * mean.g.transpose() * own)};
-      // At a kink the flat summand itself, and all else as it is there; among points, which have
-      // no curvature, something of the shape's extents.
+      // At a kink, uses the flat summand itself and the other values there; among points, which
+      // have no curvature, the surrogate.
       Vec3<W> g_body = mean.g;
       const Mask<W> is_common = common & !kink.here;
       const Mat3<W> about = surrogate_ * shrink_;
@@ -190,11 +190,11 @@ class SumsCast {
     return solution;
   }
 
-  /// If the plane of direction m is higher than the lowest one so far, takes a part of the step
-  /// from the lowest instead, to the minimum of the parabola through the known values; a step past
-  /// the shape is repeated as one that cannot be too long (the ellipsoid A = sum h_k sum A_k/h_k
-  /// holds the sum of ellipsoids and touches it in this direction). Returns the lanes whose plane
-  /// is higher. For one feature.
+  /// If the plane of direction m is higher than the lowest one so far, takes only a part of the
+  /// step from the lowest, to the minimum of the parabola through the known values. A step past the
+  /// shape is replaced by one that cannot be too long (the ellipsoid A = sum h_k sum A_k/h_k
+  /// contains the sum of ellipsoids and touches it in this direction). Returns the lanes whose
+  /// plane is higher. For one feature.
   Mask<W> step_back(Lowest& lowest, Vec3<W>& m, const Look& look, const Mask<W>& lanes) const {
     using std::max;
     using std::min;
@@ -249,7 +249,7 @@ class SumsCast {
       found += select<W>(features_.valid(i), Vec3<W>(sum.s * weight), Vec3<W>(Vec3<W>::Zero()));
       solution.exact &= (!features_.valid(i)) | (weight == W(0)) | sum.exact;
     }
-    // From p to where the ray crosses its plane.
+    // From p to the point where the ray crosses p's plane.
     const W drop = (m.x() * p.x() + m.y() * p.y()) / select(ahead, m.z(), W(1));
     const W away = p.x() * p.x() + p.y() * p.y() + drop * drop;
     const Mask<W> agrees = (highest - mean <= W(tolerance::jet_gap<T> * R_)) &
@@ -269,7 +269,7 @@ class SumsCast {
   static constexpr int newton_steps = 12;
   /// Scale of the surrogate below which points are used as they are.
   static constexpr T least_shrink = T(1e-3);
-  /// An osculating ellipsoid is trusted so close to the ray, in units of the bounding radius.
+  /// Distance from the ray, in units of R_, up to which an osculating ellipsoid is trusted.
   inline static const T model_reach = std::cbrt(tolerance::epsilon<T>);
 
   const Features& features_;

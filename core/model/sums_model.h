@@ -49,7 +49,7 @@ class SumsModel {
     if (iteration >= 3) shrink_ *= W(T(0.5));
     const SumsCast<W> cast(features_, R_, surrogate_, shrink_);
     SumsHit<W> found = cast.solve(n);
-    // Ellipsoids that osculate elsewhere may hold the direction where it is, and be wrong.
+    // Ellipsoids that osculate in other directions may be wrong and keep the direction unchanged.
     const Mask<W> stalls =
         (!found.certain) & ((found.m - n).squaredNorm() <= W(tolerance::epsilon<T>));
     if (any(stalls)) {
@@ -75,7 +75,7 @@ class SumsModel {
   Vec3<W> s_, from_;
   RayFrame<W> frame_;
   T R_;
-  Mat3<W> surrogate_;  ///< an ellipsoid of the shape's extents, for points' lack of curvature
+  Mat3<W> surrogate_;  ///< ellipsoid with the shape's extents that replaces points
   W shrink_ = W(T(0.5));
   SumFeatures<W> features_;
 };

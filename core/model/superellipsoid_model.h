@@ -52,9 +52,10 @@ class SuperellipsoidModel {
     return hit;
   }
 
-  /// Called only where the plane does not meet the hit that `begin` found. Where planes are so
-  /// steep that their rounding is long, the plane itself may meet the ray at a point of the shape,
-  /// up to rounding; or else the ray is tangent up to rounding, which a plane along it will show.
+  /// Called only if the plane does not confirm the hit that `begin` found. If planes are so steep
+  /// that their rounding is large along the ray, the plane itself may meet the ray at a point of
+  /// the shape, up to rounding. Otherwise the ray is tangent up to rounding: a plane along it
+  /// follows.
   ModelHit<W> step(const Feature& feature, const Vec3<W>& n, int) {
     const W z = against_ray(n);
     const Mask<W> ahead = z > W(0);
@@ -72,7 +73,7 @@ class SuperellipsoidModel {
   struct Found {
     Mask<W> hits;  ///< at `lambda`
     W lambda;
-    Vec3<W> gradient;  ///< of the gauge there; if the line does not hit, of the least gauge
+    Vec3<W> gradient;  ///< of the gauge there; on a miss, of the least gauge
   };
 
   /// A point of the line and the gauge's tangent there.
@@ -95,8 +96,8 @@ class SuperellipsoidModel {
     Vec3<W> gradient;
   };
 
-  /// Crossing of two tangents on either side of the least gauge: its lower bound. Their mean there
-  /// that does not change along the ray is the gradient of a plane along it.
+  /// Crossing of two tangents on either side of the least gauge: a lower bound of the gauge. The
+  /// mean of the tangents that is constant along the ray is the gradient of a plane along the ray.
   static Crossing crossing(const Tangent& left, const Tangent& right, const Mask<W>& both) {
     const W fall = -left.slope, sum = select(both, W(fall + right.slope), W(1));
     const W difference = fall * right.slope * (right.lambda - left.lambda);
@@ -104,7 +105,8 @@ class SuperellipsoidModel {
             Vec3<W>((left.gradient * right.slope + right.gradient * fall) / sum)};
   }
 
-  /// The component at right angles to the ray; the ray's own direction if nothing is left.
+  /// Returns the unit component perpendicular to the ray; if it is zero, the direction against the
+  /// ray.
   Vec3<W> across(const Vec3<W>& n) const {
     const Vec3<W> crosswise = unit<W>(Vec3<W>(n - r_ * n.dot(r_)));
     return select<W>(crosswise.squaredNorm() > W(0), crosswise, Vec3<W>(-r_));
@@ -112,8 +114,8 @@ class SuperellipsoidModel {
 
   /// The line is u_ + lambda v_, in units of the radii. The tangent's zero of (gauge - 1) is a
   /// lower bound of the first hit, since the gauge is convex. The square of the gauge is nearly a
-  /// parabola (for p = 2 it is one), whose zero comes next; where that leaves what is known, the
-  /// middle of it.
+  /// parabola (for p = 2 it is one), whose zero is the next guess; if it is outside the known
+  /// interval, the interval's middle is.
   Found find() const {
     using std::abs;
     using std::max;
@@ -133,7 +135,7 @@ class SuperellipsoidModel {
     left.lambda = lower;
     left.value = left.slope = right.lambda = right.value = right.slope = W(0);
     Found found{Mask<W>(false), lambda, Vec3<W>::Zero()};
-    // Lanes that pass by the bounding ball, or have no direction, are left out.
+    // Excludes lanes that miss the bounding ball or have no direction.
     Mask<W> open = (s_.squaredNorm() <= W(T(1.01) * R_ * R_)) & (v_squared > W(0));
     for (int i = 0; i < max_evaluations; ++i) {
       const auto gauge = shape_.template gauge_along<W>(u_, v_, lambda);
@@ -191,7 +193,7 @@ class SuperellipsoidModel {
     return found;
   }
 
-  /// A few roundings of a position, as a difference of the gauge where its gradient is this.
+  /// Change of the gauge, with this gradient, due to a few roundings of a position.
   W rounding_of(const Vec3<W>& gradient) const {
     return gradient.cwiseProduct(to_unit_).norm() * W(T(2) * tolerance::epsilon<T> * R_);
   }
@@ -217,7 +219,7 @@ class SuperellipsoidModel {
 
   const S& shape_;
   Vec3<W> from_, s_, r_;  ///< the ray's s in the shape's frame and in the ball's
-  Vec3<W> to_unit_;       ///< one over the radii
+  Vec3<W> to_unit_;       ///< 1 / radii
   Vec3<W> u_, v_;         ///< s and r in units of the radii
   T R_;
   Mask<W> hits_ = Mask<W>(false);

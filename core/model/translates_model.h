@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The model for shapes that are the hull of translates of one body: of a ball around the vertices
-// of a polytope, or of an ellipsoid. The hull of up to four of them.
+// of a polytope, or of an ellipsoid. The model is the hull of up to four of them.
 #pragma once
 
 #include "core/model/entered_facet.h"
@@ -20,7 +20,7 @@ struct Translate {
   Vec3<W> support_point(const Vec3<W>& n) const { return c + body.support_point(n); }
 };
 
-/// A polytope and how far it is rounded.
+/// A polytope and its rounding radius.
 template <class W, class Polytope>
 struct RoundedPolytope {
   using Core = Polytope;
@@ -30,8 +30,8 @@ struct RoundedPolytope {
   Lane<W> radius;
 
   Body body(const RayFrame<W>&) const { return {W(radius)}; }
-  /// The one that reaches furthest along n, seen from a point, at least in the lanes that are
-  /// wanted. In the frame, but for the point.
+  /// Returns the translate that reaches furthest along n, relative to `from`, at least in the lanes
+  /// that are wanted. n and the result are in the ray's frame, `from` in the shape's.
   Translate<W, Body> furthest(const Vec3<W>& n, const Mask<W>& wanted, const Vec3<W>& from,
                               const RayFrame<W>& frame) const {
     return {frame.into(support_where<W>(core, wanted, frame.out_of(n)) - from), {W(radius)}};
@@ -39,7 +39,7 @@ struct RoundedPolytope {
   static Mask<W> alike(const Body&, const Body&) { return Mask<W>(true); }
 };
 
-/// A shape whose jets are, as far as is known, all exact and differ in their centres alone.
+/// A shape whose jets are presumed to be exact and to differ only in their centres.
 template <class W, class S>
 struct JetTranslates {
   using Core = void;
@@ -54,7 +54,7 @@ struct JetTranslates {
                               const RayFrame<W>& frame) const {
     const Jet<W> jet = shape.template jet<W>(frame.out_of(n));
     Translate<W, Body> feature{frame.into(jet.c - from), turned(jet.F, frame)};
-    if (!all(jet.exact)) {  // the support point alone, which is unlike the others
+    if (!all(jet.exact)) {  // only the support point, which differs from the others
       feature.c = select<W>(jet.exact, feature.c, frame.into(jet.s - from));
       for (int k = 0; k < 3; ++k)
         feature.body.F.col(k) =
@@ -113,7 +113,7 @@ class TranslatesModel {
     }
   }
 
-  /// Around the facet that the ray enters, if facets are known.
+  /// Begins around the facet that the ray enters, if facets are known.
   ModelHit<W> begin(const Vec3<T>& half_extents) {
     ModelHit<W> hit;
     EnteredFacet<W> facet;
@@ -147,7 +147,7 @@ class TranslatesModel {
   }
 
   ModelHit<W> step(const Feature& feature, const Vec3<W>&, int) {
-    // Forget an older copy of the newest feature; it will be kept in a free place.
+    // Removes an older copy of the newest feature, which will be stored in a free place.
     Mask<W> repeated(false);
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3<W>& c = kept_.c[k];
@@ -158,7 +158,7 @@ class TranslatesModel {
     }
     ModelHit<W> hit = keep(feature, HullCast<W, Body>(body_, feature.c, kept_, rounding_).solve());
     hit.repeated = repeated;
-    // A body of another kind: not a shape for this model after all.
+    // If the body is of another kind, this model does not suit the shape.
     const Mask<W> alike = Bodies::alike(feature.body, body_);
     if (!all(alike)) hit.m = select<W>(alike, hit.m, Vec3<W>(Vec3<W>::Zero()));
     hit.certain &= alike;
@@ -168,8 +168,8 @@ class TranslatesModel {
  private:
   using Known = Facets<W, typename Bodies::Core>;
 
-  /// The hit on the hull of the features that are kept and this one, which is none of them; from
-  /// now on those that carry the hit are kept.
+  /// Returns the hit on the hull of the kept features and this one, which is not among them. Then
+  /// keeps only those that carry the hit.
   ModelHit<W> keep(const Feature& feature, const HullCastHit<W>& on_hull) {
     ModelHit<W> hit;
     hit.m = on_hull.m;

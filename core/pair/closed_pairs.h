@@ -25,7 +25,8 @@ CoreDistance between_solid_and_point(const ShapeCore& solid, const Vec3<double>&
 
 enum class BoxOverlap : unsigned char {
   none,
-  without_points,  ///< a and c are not set: an edge or a face lies in the contact plane
+  without_points,  ///< CoreDistance::a and c are not set: an edge or a face lies in the
+                   ///< contact plane
   with_points,
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Planes around a polytope in an order in which several are tested together, and a line between
-// all of them. Compiled once for each instruction set, without fused operations: the same bits.
+// Planes around a polytope, stored so that several are tested together, and the scan of a line
+// between all of them. Compiled once for each instruction set, without fused operations: results
+// are bit-identical.
 #pragma once
 
 #include <vector>
@@ -9,13 +10,13 @@
 
 namespace minkray::exact {
 
-/// The planes n.x = offset as rows of numbers, four planes a row: n.x, n.y, n.z, the offset, and
-/// how much further in the plane would have to be to hold no point of its triangles.
+/// The planes n.x = offset as rows of numbers, four planes per row: n.x, n.y, n.z, the offset, and
+/// the depth: the distance by which the plane would have to move in to be below its triangles.
 class PlaneRows {
  public:
   static constexpr std::size_t planes_a_row = 4, numbers_a_plane = 5;
 
-  /// The last row is filled up with the last plane.
+  /// Adds a plane; the rest of the last row repeats it.
   void add(const Vec3<double>& normal, double offset, double depth);
 
   std::size_t size() const { return size_; }
@@ -29,17 +30,16 @@ class PlaneRows {
   std::size_t size_ = 0;
 };
 
-/// The plane that a line enters last, and the one it leaves first. Where several are equal, the
-/// first.
+/// The plane that a line enters last, and the one that it leaves first; the first one among ties.
 struct PlaneScan {
   double in = 0, out = 0;
-  /// The entry is no later, and the exit no earlier, at any plane moved in by its depth and E.
+  /// The latest entry, and the earliest exit, if all planes are moved in by their depths and E.
   double in_hi = 0, out_lo = 0;
   std::size_t entered = 0, left = 0;
 };
 
 void scan_planes_sse2(const PlaneRows& planes, const Line<double>& line, PlaneScan& found);
-/// Only on machines that have AVX2 and FMA, which it does not use; the same bits.
+/// Same, bit for bit; requires AVX2 and FMA (but does not use FMA).
 void scan_planes_avx2(const PlaneRows& planes, const Line<double>& line, PlaneScan& found);
 
 }  // namespace minkray::exact

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters the convex hull of points: by walking over its triangles to the one the
-// line passes through; if that is in doubt, or the hull has few facets, between all its planes.
-// Each plane has a bound on the depth of its triangles' points below it, so that nothing is assumed
-// about how planes were found (docs/forms.md, "Polytopes with an error bound").
+// Finds where a line enters the convex hull of points: by walking over its triangles to the one
+// that the line passes through or, if that is in doubt or the hull has few facets, by testing all
+// its planes. Each plane has a bound on the depth of its triangles' points below it, so the proof
+// does not depend on how planes were found (docs/forms.md, "Polytopes with an error bound").
 #pragma once
 
 #include <memory>
@@ -13,26 +13,26 @@
 
 namespace minkray::exact {
 
-/// Immutable once made; all lengths are counted from the middle that was given.
+/// Immutable. Positions are relative to the given middle.
 class Polytope {
  public:
-  /// Null if the points' hull is flat, or so thin that its planes' depths use it up, or has more
-  /// points than planes are searched for; or if it is to be grown by a radius and is not convex,
-  /// or its triangles are not high enough for rounding to decide which of its features are next to
-  /// a line. Points are multiplied by `down` first.
+  /// Null if there are no facets or too many points, or if the hull is flat or not thicker than the
+  /// depths of its planes. For rounded_by > 0, also null if it is not convex or its triangles are
+  /// so low that rounding decides which features are next to a line. Points are multiplied by
+  /// `down` first.
   template <class T>
   static std::shared_ptr<const Polytope> of(const PointCloud<T>& points, const Vec3<double>& middle,
                                             double down, double rounded_by = 0);
 
-  /// A triangle grown by a radius, which counts from the middle and has two sides. Null if the
-  /// radius is 0 or the triangle not high enough.
+  /// A triangle with two sides, grown by a radius; corners are relative to the middle. Null if the
+  /// radius is 0 or the triangle too low.
   static std::shared_ptr<const Polytope> of(const std::array<Vec3<double>, 3>& corners,
                                             double rounded_by);
 
-  /// The ball of this radius around the middle holds it.
+  /// Radius of a ball around the middle that contains the polytope.
   double radius() const { return radius_; }
-  /// Bounds how far rounding moves the point where a line crosses a plane, across the line, or
-  /// meets an adjacent feature of the grown polytope; to be added to the line's E.
+  /// Bound of the displacement by rounding, across the line, of the point where a line crosses a
+  /// plane or meets an adjacent feature of the grown polytope; to be added to the line's E.
   double rounding() const { return rounding_; }
   std::size_t planes() const { return tables_.plane_count(); }
   const PolytopeTables& tables() const { return tables_; }
@@ -53,7 +53,7 @@ extern template std::shared_ptr<const Polytope> Polytope::of(const PointCloud<fl
 extern template std::shared_ptr<const Polytope> Polytope::of(const PointCloud<double>&,
                                                              const Vec3<double>&, double, double);
 
-/// The lines meet the ball, and their E has the rounding added.
+/// The lines must meet the ball, and their E must include the rounding.
 template <class W>
 Entry<W> enter_tables(const PolytopeTables& polytope, const Line<W>& line, const Mask<W>& open);
 

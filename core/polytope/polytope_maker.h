@@ -17,7 +17,7 @@ class Polytope::Maker {
   Maker(Polytope& made, std::vector<Vec3<double>> vertices)
       : made_(made), vertices_(std::move(vertices)) {}
 
-  /// False, if triangles are not each other's neighbours.
+  /// Stores the mesh's triangles. False if the links between neighbours are not mutual.
   template <class T>
   bool take_triangles(const FacetMesh<T>& mesh, const std::vector<Vec3<T>>& points) {
     std::vector<std::uint32_t> order(points.size());
@@ -42,7 +42,7 @@ class Polytope::Maker {
     return true;
   }
 
-  /// Those of a single triangle, each with a plane of its own.
+  /// Stores the two sides of a single triangle, each with its own plane.
   void take_two_sides() {
     triangles_ = {{{0, 1, 2}, {5, 4, 3}}, {{0, 2, 1}, {2, 1, 0}}};
     for (std::uint32_t side = 0; side < 2; ++side) {
@@ -53,7 +53,7 @@ class Polytope::Maker {
     made_.tables_.inner = (vertices_[0] + vertices_[1] + vertices_[2]) / 3;
   }
 
-  /// The planes, first of the largest triangles, so that slivers have others' planes.
+  /// Finds the planes, beginning with the largest triangles, so that slivers use their planes.
   void find_planes() {
     own_.resize(triangles_.size());
     std::vector<double> areas(triangles_.size());
@@ -70,8 +70,8 @@ class Polytope::Maker {
     for (const std::size_t f : order) choose_plane(f);
   }
 
-  /// Finds the points' mean, and whether it lies within all planes, moved in by their depths: else
-  /// the proof has nothing to begin with.
+  /// Finds the points' mean. True if it lies within all planes after they move in by their depths,
+  /// which the proof requires.
   bool find_inside() {
     Vec3<Long> mean = Vec3<Long>::Zero();
     for (const Vec3<double>& p : vertices_) mean += p.cast<Long>();
@@ -107,7 +107,8 @@ class Polytope::Maker {
       }
   }
 
-  /// facing(n) is a triangle whose normal is near n.
+  /// Fills the map from directions to triangles; facing(n) returns a triangle whose normal is near
+  /// n.
   template <class Facing>
   void fill_map(const Facing& facing) {
     PolytopeTables& tables = made_.tables_;
@@ -124,8 +125,8 @@ class Polytope::Maker {
     }
   }
 
-  /// Adds the radius, and the rounding that hides adjacent features (docs/forms.md). False if the
-  /// polytope is not fit for it.
+  /// Adds the radius, and the rounding that makes adjacent features ambiguous (docs/forms.md).
+  /// False if the polytope is not convex or has triangles that are too low.
   bool make_room_for_rounding() {
     Long least = made_.radius_;
     for (const Triangle& triangle : triangles_) {
@@ -143,8 +144,8 @@ class Polytope::Maker {
     }
     const double room = static_cast<double>(least) / made_.radius_;
     if (!(room > tolerance::rounded_polytope_height)) return false;
-    // A feature next to another rises by no more than rounding where it seems to fall, and one
-    // further away by proportionally more.
+    // A feature that seems to fall rises by no more than rounding if it is adjacent, and by
+    // proportionally more if it is further away.
     made_.radius_ += made_.tables_.rounded_by;
     made_.rounding_ = tolerance::polytope_rounding * made_.radius_ + 2 * made_.rounding_ / room;
     return true;
@@ -153,12 +154,12 @@ class Polytope::Maker {
  private:
   using Long = long double;
 
-  /// Cells of the map of normals a triangle, and cells that fit the cache.
+  /// Cells per triangle in the map of normals, and the number of cells that fit in the cache.
   static constexpr double cells_a_triangle = 4, most_cells = 6 * 64 * 64;
 
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
-  /// A plane beyond which no point of the hull lies.
+  /// A plane with all points of the hull below it.
   struct Plane {
     Vec3<double> normal = Vec3<double>::Zero();
     Long offset = 0;
@@ -168,7 +169,7 @@ class Polytope::Maker {
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
   }
 
-  /// Corners counter-clockwise from outside, and the twin of each half-edge from corner k to k + 1.
+  /// Corners counter-clockwise from outside; twins of the half-edges from each corner to the next.
   struct Triangle {
     std::array<std::uint32_t, 3> corner, twin;
   };
@@ -195,7 +196,7 @@ class Polytope::Maker {
     return false;
   }
 
-  /// Vectors of unit length are rounded once: slender triangles keep their digits.
+  /// Unit vectors are rounded only once, so that slender triangles keep their digits.
   void fill_feature(std::uint32_t half_edge, std::uint32_t twin) {
     const std::uint32_t after = next(half_edge);
     const Vec3<double>& a = vertices_[origin(half_edge)];
@@ -221,7 +222,7 @@ class Polytope::Maker {
 
   Plane supporting(const Vec3<double>& normal) const {
     Plane plane{normal, -std::numeric_limits<Long>::infinity()};
-    // Points that are clearly lower in double need no more digits.
+    // Points that are clearly lower in double are not computed in long double.
     double furthest = -std::numeric_limits<double>::infinity();
     const double unsure = 2 * made_.rounding_;
     for (const Vec3<double>& p : vertices_) {
@@ -245,7 +246,8 @@ class Polytope::Maker {
     return plane.offset - lowest;
   }
 
-  /// A neighbour's, if its corners lie as near to that as rounding or as to the triangle's own.
+  /// Uses the plane of a neighbour if the corners are as near to it as to the triangle's own plane,
+  /// or within rounding.
   void choose_plane(std::size_t f) {
     const Triangle& triangle = triangles_[f];
     const bool has_normal = own_[f].normal.squaredNorm() > 0;
@@ -271,7 +273,7 @@ class Polytope::Maker {
   Polytope& made_;
   std::vector<Vec3<double>> vertices_;
   std::vector<Triangle> triangles_;
-  std::vector<Plane> own_, planes_;  ///< of each triangle; those that are kept
+  std::vector<Plane> own_, planes_;  ///< planes of each triangle; planes that are kept
   std::vector<Long> depths_;
   std::vector<std::uint32_t> plane_of_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lines between a polytope's planes: where they enter the last of them, or leave the first. One
-// text for a line and for one in each lane.
+// Lines between a polytope's planes: where they enter the last plane, or leave the first. The same
+// code for one line and for one line per lane.
 #pragma once
 
 #include "core/math/gather_rows.h"
@@ -28,8 +28,8 @@ struct PlaneRow {
   }
 };
 
-/// Computes where the line enters a plane that is entered last, if that is not steeper: the cosine
-/// of the angle between the line and the normal is more than `steepest`.
+/// Sets the hit at the plane that the line enters last, if the plane is not too steep: the cosine
+/// of the angle between the line and the normal must be more than `steepest`.
 template <class W>
 void settle_hit(const PolytopeTables& of, const W& plane, const Line<W>& line, const Mask<W>& open,
                 Lane<W> steepest, Entry<W>& entry) {
@@ -49,7 +49,7 @@ void settle_hit(const PolytopeTables& of, const W& plane, const Line<W>& line, c
   entry.normal = select<W>(hit, at.normal, entry.normal);
 }
 
-/// A miss, if one plane is entered after another one is left.
+/// Sets a miss if the line enters one plane after it leaves the other.
 template <class W>
 void settle_miss(const PolytopeTables& of, const W& entered, const W& left, const Line<W>& line,
                  const Mask<W>& open, Entry<W>& entry) {
@@ -65,7 +65,7 @@ void settle_miss(const PolytopeTables& of, const W& entered, const W& left, cons
   entry.normal = select<W>(miss, between(in.normal, out.normal, line.d), entry.normal);
 }
 
-/// PlaneScan in lanes.
+/// Same as PlaneScan, in lanes.
 template <class W>
 struct PlanesPassed {
   W in = W(-std::numeric_limits<double>::infinity()), in_hi = in;
@@ -73,7 +73,7 @@ struct PlanesPassed {
   W entered = W(0), left = W(0);
 };
 
-/// Between all planes: the operations of plane_scan.inl, whose lanes are planes.
+/// Tests all planes, with the operations of plane_scan.inl; here, lanes are lines, not planes.
 template <class W>
 PlanesPassed<W> pass_planes(const PolytopeTables& of, const Line<W>& line) {
   using std::abs;

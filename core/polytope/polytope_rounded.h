@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a polytope that is grown by a radius: the nearest face moved out, or
-// the cylinder around an edge, or the ball around a vertex, whichever is supported at its contact
-// with respect to its neighbours. Walks from feature to feature as Lin and Canny do ("A Fast
-// Algorithm for Incremental Distance Calculation", 1991); the same code for a line and for one in
-// each lane.
+// Finds where a line enters a polytope that is grown by a radius: at the nearest face moved out,
+// the cylinder around an edge or the ball around a vertex, whichever no neighbour rises above at
+// its contact. Walks from feature to feature as Lin and Canny do ("A Fast Algorithm for Incremental
+// Distance Calculation", 1991); the same code for one line and for one line per lane.
 #pragma once
 
 #include "core/polytope/polytope_walk.h"
 
 namespace minkray::exact {
 
-/// Whichever feature supports, of all features: for lines that walks have lost.
+/// Tests all features for the one that supports: for lines whose walk failed.
 Entry<double> enter_any_feature(const PolytopeTables& of, const Line<double>& line);
 
 /// Feature of the surface that a half-edge represents: its triangle, itself, its origin.
@@ -24,8 +23,8 @@ class RoundedWalk {
   RoundedWalk(const PolytopeTables& polytope, const Line<W>& line)
       : of_(polytope), r_(polytope.rounded_by), line_(line) {}
 
-  /// From a triangle or an edge, feature by feature to the one that supports. Lanes that find none
-  /// are left `lost`.
+  /// Walks from a triangle or an edge, feature by feature, to the one that supports. Lanes that
+  /// find none are `lost`.
   Entry<W> from(const WalkEnd<W>& start, Mask<W>& lost) {
     constexpr int most_features = 24;
     feature_ = select(start.in_triangle, W(feature::face),
@@ -38,7 +37,7 @@ class RoundedWalk {
     return entry_;
   }
 
-  /// At one feature only; false if it leads to another one.
+  /// Tests one feature only; false if it leads to another one.
   bool settles_at(double which, double edge) requires(std::is_same_v<W, double>) {
     entry_ = {};
     feature_ = which;
@@ -49,7 +48,7 @@ class RoundedWalk {
   const Entry<W>& entry() const { return entry_; }
 
  private:
-  /// The line and a feature's cylinder or ball: where it enters, or is closest.
+  /// Point where the line enters a feature's cylinder or ball, or is closest to it.
   struct Contact {
     Mask<W> meets, is_clear;
     W t, e;
@@ -57,7 +56,7 @@ class RoundedWalk {
   };
   using Numbers = std::array<W, 12>;
 
-  /// At each lane's feature; false, if none leads to another one.
+  /// Tests each lane's feature; false if none leads to another one.
   bool look() {
     const Mask<W> at_faces = feature_ == W(feature::face);
     if (any(at_faces)) look_at_face(at_faces);
@@ -87,7 +86,7 @@ class RoundedWalk {
   static Vec3<W> along(const Numbers& of) { return vector(of, 8); }
   static W length(const Numbers& of) { return of[11]; }
 
-  /// Goes to a half-edge's triangle, or, if that faces away, to the nearer one of its other edges.
+  /// Goes to a half-edge's triangle or, if that faces away, to the nearer of its other two edges.
   void go_over(const Mask<W>& which, const W& edge) {
     const PlaneRow<W> plane(of_, plane_of(of_, edge));
     const Mask<W> faces = plane.normal.dot(line_.d) < W(-least_component<W>);
@@ -95,7 +94,7 @@ class RoundedWalk {
     const Mask<W> away = which & !faces;
     if (!any(away)) return;
     const W second = next(numbers<4>(edge)), third = next(numbers<4>(second));
-    // The distance from the line, times and by a sine, squared.
+    // Squared distance of an edge from the line.
     const auto distance = [&](const W& of) {
       const Numbers at = numbers<12>(of);
       const Vec3<W> across = along(at).cross(line_.d);
@@ -105,7 +104,7 @@ class RoundedWalk {
     go_to(away, feature::edge, select(distance(second) < distance(third), second, third));
   }
 
-  /// As `from` and `way` to the line, both at right angles to the axis, whose square is `across`.
+  /// The line is from + t way, both perpendicular to the axis; `across` is the square of `way`.
   Contact contact(const Vec3<W>& from, const Vec3<W>& way, const W& across) const {
     using std::abs;
     using std::max;
@@ -123,9 +122,9 @@ class RoundedWalk {
     return found;
   }
 
-  /// Hit or miss, unless so near to where another feature begins that its formula might be the
-  /// right one, and is further apart than E (docs/forms.md, section 13); or leans over the next
-  /// feature, since its normal is only known to E over a radius that is small.
+  /// Sets a hit or miss. In doubt if another feature begins so near that its formula might apply,
+  /// and the two formulas differ by more than E (docs/forms.md, section 13); or if the normal leans
+  /// over the next feature, since the normal of a small radius has a large error.
   void settle(const Mask<W>& which, const Contact& found, const W& nearest_end) {
     feature_ = select(which, W(feature::none), feature_);
     const W width = found.e * found.e * line_.dd;
@@ -187,8 +186,8 @@ class RoundedWalk {
     const W at = s_along + d_along * found.t;
     leave(at < W(0), feature::vertex, here);
     leave(at > length(edge), feature::vertex, next(edge));
-    // The edge supports if both adjacent triangles fall away, and, in case they are in one plane,
-    // so do those behind them.
+    // The edge supports if both adjacent triangles fall away and, in case they are in one plane, so
+    // do the triangles behind them.
     if (!any(which)) return;
     const W other = twin(edge);
     const W rise = found.out.dot(inwards(edge));
@@ -206,7 +205,7 @@ class RoundedWalk {
     const Contact found = contact(line_.s - place, line_.d, line_.dd);
     go_to(which & !found.is_clear, feature::none, at_);
     which &= found.is_clear;
-    // The edges from it, triangle by triangle.
+    // Visits the edges from the vertex, triangle by triangle.
     constexpr int most_edges = 256;
     const W start = at_;
     W steepest(-std::numeric_limits<double>::infinity()), up = start, edge = start;
@@ -260,8 +259,8 @@ void find_lost(const PolytopeTables& of, const Line<W>& line, const Mask<W>& los
   }
 }
 
-/// Finds where lines enter the polytope grown by a radius, those that meet its ball. Starts from
-/// the face whose normal is near that of the entry, or, if that faces away, from where the line
+/// Finds where lines that meet the ball enter the polytope grown by a radius. Starts from a face
+/// whose normal is likely to be near that of the entry or, if that faces away, from where the line
 /// passes the polytope itself.
 template <class W>
 Entry<W> enter_features(const PolytopeTables& of, const Line<W>& line, const Mask<W>& open) {

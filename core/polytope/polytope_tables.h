@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Tables for a line's way over a polytope: rows of numbers, so that the lanes of a packet gather
-// them. Links are numbers as well; they count half-edges: triangle f has 3 f, 3 f + 1, 3 f + 2,
-// counter-clockwise from outside.
+// Tables for walks over a polytope: rows of numbers that the lanes of a packet gather. Links are
+// numbers, too: indices of half-edges. Triangle f has 3 f, 3 f + 1, 3 f + 2, counter-clockwise from
+// outside.
 #pragma once
 
 #include <cstdint>
@@ -13,34 +13,35 @@
 namespace minkray::exact {
 
 struct PolytopeTables {
-  /// A row a vertex: its place, and a number that fills the row.
+  /// One row per vertex: its position, and a number that fills the row.
   static constexpr std::size_t vertex_row = 4;
   std::vector<double> vertices;
 
-  /// A row a half-edge: the third corner of the triangle beyond, and the half-edge after its twin,
-  /// negative if that is the last of its triangle.
+  /// One row per half-edge: the third corner of the triangle beyond, and the half-edge after its
+  /// twin, negative if that is the last one of its triangle.
   static constexpr std::size_t walk_row = 4;
   std::vector<double> walk;
-  std::vector<std::int32_t> links;  ///< the fourth column again
+  std::vector<std::int32_t> links;  ///< copy of the fourth column
 
-  /// A row a half-edge: its origin, the next one; the unit vector across it into its triangle, its
-  /// twin; the unit vector along it, its length. Empty where the polytope cannot be rounded.
+  /// One row per half-edge: its origin, the next half-edge; the unit vector perpendicular to it
+  /// into its triangle, its twin; the unit vector along it, its length. Empty if the polytope is
+  /// not rounded.
   static constexpr std::size_t feature_row = 12;
   std::vector<double> features;
 
-  /// A row a plane: normal, offset, depth, and three numbers that fill the row.
+  /// One row per plane: normal, offset, depth, and three numbers that fill the row.
   static constexpr std::size_t plane_row = 8;
   std::vector<double> planes;
 
-  PlaneRows scanned;                    ///< the planes again, as they are scanned for a single line
-  std::vector<std::uint32_t> origin;    ///< each half-edge's vertex
-  std::vector<std::uint32_t> plane_of;  ///< each half-edge's plane
+  PlaneRows scanned;                    ///< the planes, stored for scans with a single line
+  std::vector<std::uint32_t> origin;    ///< vertex of each half-edge
+  std::vector<std::uint32_t> plane_of;  ///< plane of each half-edge
   CubeMap directions{1};
   std::vector<std::uint32_t> facing;  ///< for each cell of normals, a triangle's first half-edge
 
   double rounded_by = 0;                ///< the radius by which the polytope is grown
   Vec3<double> inner = {0, 0, 0};       ///< a point well within
-  Vec3<double> by_extents = {1, 1, 1};  ///< one by the half extents, grown by the radius
+  Vec3<double> by_extents = {1, 1, 1};  ///< 1 / half extents, grown by the radius
   bool has_avx2 = false;
 
   std::size_t plane_count() const { return scanned.size(); }

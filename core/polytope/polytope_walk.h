@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The line's way over a polytope's triangles (Devillers, Pion and Teillaud, "Walking in a
-// Triangulation", 2002). The same code for a line and for one in each lane; lanes continue side by
-// side until the last has arrived.
+// Walk of a line over a polytope's triangles (Devillers, Pion and Teillaud, "Walking in a
+// Triangulation", 2002). The same code for one line and for one line per lane; lanes continue until
+// the last one has arrived.
 #pragma once
 
 #include "core/polytope/polytope_planes.h"
@@ -11,16 +11,16 @@
 
 namespace minkray::exact {
 
-/// End of a walk: in a triangle that the line passes through, clearly or not, or at an edge beyond
-/// which it passes the polytope by. Neither of them if it has lost its way.
+/// End of a walk: in a triangle that the line passes through, clearly or not; or at an edge on the
+/// outline, if the line misses. If neither mask is set, the walk failed.
 template <class W>
 struct WalkEnd {
   Mask<W> in_triangle = Mask<W>(false), is_clear = Mask<W>(false), past_edge = Mask<W>(false);
-  W edge = W(0);    ///< a half-edge of the triangle; or that which the line is beyond
-  W beyond = W(0);  ///< a half-edge of the triangle beyond that
+  W edge = W(0);    ///< a half-edge of the triangle; or the one that the line is beyond
+  W beyond = W(0);  ///< a half-edge of the triangle beyond `edge`
 };
 
-/// True if the line passes a triangle's edges, viewed along the line, by more than its error.
+/// True if, seen along the line, all edges are further from it than the error.
 template <class W>
 Mask<W> is_clear(const std::array<Seen<W>, 3>& p, const std::array<W, 3>& side, const W& E) {
   using std::abs;
@@ -30,13 +30,13 @@ Mask<W> is_clear(const std::array<Seen<W>, 3>& p, const std::array<W, 3>& side, 
   return (side[0] > margin * (a + b)) & (side[1] > margin * (b + c)) & (side[2] > margin * (c + a));
 }
 
-/// A half-edge of a triangle whose normal is near that of the ellipsoid of the same extents where
-/// the line enters it.
+/// Returns a half-edge of a triangle whose normal is near that of the ellipsoid with the same
+/// extents, at the point where the line enters the ellipsoid.
 template <class W>
 W first_edge(const PolytopeTables& of, const Line<W>& line) {
   using std::max;
   using std::sqrt;
-  // Squared depth to which a line that passes the ellipsoid's ball by is assumed to enter it.
+  // Squared depth to which a line that misses the ellipsoid is assumed to enter it.
   constexpr double least_depth = 1.0 / 64;
   const Vec3<W> by_extents = widen<W>(of.by_extents);
   const Vec3<W> d = line.d.cwiseProduct(by_extents), s = line.s.cwiseProduct(by_extents);
@@ -48,24 +48,25 @@ W first_edge(const PolytopeTables& of, const Line<W>& line) {
                 [&](std::size_t cell) { return static_cast<double>(of.facing[cell]); });
 }
 
-/// A half-edge of a triangle that faces the line, whatever the line is.
+/// Returns a half-edge of a triangle that faces the line.
 template <class W>
 W facing_edge(const PolytopeTables& of, const Line<W>& line) {
   return lookup(of.directions.cell_of(Vec3<W>(-line.d)),
                 [&](std::size_t cell) { return static_cast<double>(of.facing[cell]); });
 }
 
-/// From a start that is near, walks are short. Those of more steps have lost their way by rounding.
+/// Walks from a near start are short. Longer ones failed due to rounding.
 inline constexpr int most_steps = 64;
 
-/// Seen along the line, the triangles that face it are a triangulation: each is left by the edge
-/// that the line is furthest beyond. Where that leads to one that faces away, the line passes by.
+/// Seen along the line, the triangles that face it form a triangulation. The walk leaves each
+/// through the edge that the line is furthest beyond. If that leads to a triangle that faces away,
+/// the line misses.
 template <class W>
 WalkEnd<W> follow(const PolytopeTables& of, const Line<W>& line, Mask<W> open) {
   using std::abs;
   const View<W> view(line);
   std::array<Seen<W>, 3> p;
-  // The triangle's half-edges, and twice the areas of the triangles of each and the line.
+  // The triangle's half-edges, and twice the areas of the triangles between each and the line.
   std::array<W, 3> edge, side;
   const auto begin_at = [&](const W& first) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -121,8 +122,8 @@ WalkEnd<W> follow(const PolytopeTables& of, const Line<W>& line, Mask<W> open) {
   return end;
 }
 
-/// A single line goes by the same operations; its half-edges are whole numbers, and its choices
-/// pick by place instead of waiting for guesses of comparisons.
+/// A single line uses the same operations, but integers for half-edges, and selects by index
+/// instead of branches that may be mispredicted.
 template <>
 inline WalkEnd<double> follow(const PolytopeTables& of, const Line<double>& line, bool /*open*/) {
   const View<double> view(line);
@@ -171,7 +172,7 @@ inline WalkEnd<double> follow(const PolytopeTables& of, const Line<double>& line
   return end;
 }
 
-/// Finds where lines enter the polytope as it is, those that meet its ball.
+/// Finds where lines that meet the ball enter the polytope (without a radius).
 template <class W>
 Entry<W> enter_planes(const PolytopeTables& of, const Line<W>& line, const Mask<W>& open) {
   using std::max;
@@ -183,8 +184,8 @@ Entry<W> enter_planes(const PolytopeTables& of, const Line<W>& line, const Mask<
     const WalkEnd<W> end = follow(of, line, open);
     const Mask<W> through = end.in_triangle & end.is_clear;
     const W plane = plane_of(of, end.edge);
-    // For a line so nearly in a triangle's plane, only rounding decides whether it enters before
-    // or beyond the triangle's edges; among all planes, it is within all of them.
+    // If the line is nearly in a triangle's plane, rounding decides if it enters within the
+    // triangle's edges. Such lines are tested against all planes.
     if (any(through))
       settle_hit(of, plane, line, through, tolerance::uncertain_slope<Lane<W>>, entry);
     if (any(end.past_edge))

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Certificates: short proofs of the claims of ray casts, checked with the support mapping alone
-// (core/proof/check_certificate.h, docs/certificates.md). A hit is enclosed: a supporting plane
-// keeps the shape off the ray before t_lo, and at most four support points span a point of the
-// shape on the ray at t_hi. An inner origin is such a point itself. A miss has a plane between the
+// (core/proof/check_certificate.h, docs/certificates.md). For a hit, a supporting plane separates
+// the shape from the ray before t_lo, and at most four support points span a point of the shape on
+// the ray at t_hi. If the ray begins inside, they span its origin. A miss has a plane between the
 // shape and the ray.
 #pragma once
 
@@ -15,7 +15,8 @@
 
 namespace minkray {
 
-/// All that is known of a shape here: the point furthest along a direction of any length.
+/// The support mapping, the only access to the shape here: returns the point furthest along a
+/// direction of any length.
 using SupportFunction = std::function<Vec3<double>(const Vec3<double>&)>;
 
 /// The shape must outlive the function.
@@ -37,24 +38,24 @@ Claim claim_of(const CastResult<T>& result) {
           result.normal.template cast<double>(), double(std::numeric_limits<T>::epsilon())};
 }
 
-/// The support point along a direction, and its share of the point that is spanned.
+/// The support point along a direction, and its weight in the spanned point.
 struct WeightedSupport {
   Vec3<double> direction = Vec3<double>::Zero();
   double weight = 0;
 };
 
-/// The proof: directions only, since the shape answers with the points.
+/// The proof. Consists of directions only; the support mapping returns their points.
 struct Certificate {
   /// Hit: the normal of the plane that gives t_lo. Miss: of a plane between shape and ray. Zero if
   /// none is needed or none was found.
   Vec3<double> plane = Vec3<double>::Zero();
   /// Hit: they span a point on the ray; inside: its origin.
   std::array<WeightedSupport, 4> spanning;
-  int supports = 0;  ///< support calls that finding it took
+  int supports = 0;  ///< support calls of the search
 };
 
-/// A proof of the claim, as good as can be found; the checker decides if it holds. The search
-/// begins with the claim's normal. Nothing is proven of the status exhausted.
+/// Returns the best proof of the claim that is found; the checker decides if it holds. The search
+/// begins with the claim's normal. There is no proof for Status::exhausted.
 Certificate certify(const SupportFunction& support, const Ray<double>& ray, const Claim& claim);
 
 }  // namespace minkray

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The checker of certificates: decides whether a certificate proves a claim, in double, from
-// support points alone. Shares no code with the solvers; docs/certificates.md derives what it
-// tests.
+// Checker of certificates: decides if a certificate proves a claim, in double, from support points
+// alone. Shares no code with the solvers; docs/certificates.md derives the tests.
 #pragma once
 
 #include <string_view>
@@ -16,29 +15,29 @@ namespace minkray {
 /// to a few of these units. See docs/certificates.md for measurements.
 inline constexpr double certificate_rounding = 64;
 
-/// Lengths are the scene's.
+/// Result of the checker. Lengths are in units of the scene.
 struct CertificateVerdict {
   bool holds = false;
   std::string_view complaint;  ///< the first condition that fails; empty if it holds
 
-  /// Hit: t lies in t_base + [lo, hi], with an allowance for rounding: planes and the spanned point
-  /// are rounded across the plane, which is longer along the ray.
+  /// Hit: t lies in t_base + [offset_lo, offset_hi]. The interval includes rounding: that of planes
+  /// and of the spanned point, perpendicular to the plane, is larger along the ray.
   double t_base = 0, offset_lo = 0, offset_hi = 0;
   double offset_planes = 0;   ///< hit: where the ray crosses the last of the planes
-  double offset_spanned = 0;  ///< hit: where the point is; rounding may put planes beyond it
-  double gap = 0;      ///< hit: how deep that point lies under the plane: (t_hi - t_lo) * cosine
-  double lateral = 0;  ///< hit, inside: the distance of the spanned point from ray or origin
+  double offset_spanned = 0;  ///< hit: at the spanned point; rounding may put planes beyond it
+  double gap = 0;      ///< hit: depth of the spanned point below the plane, (t_hi - t_lo) * cosine
+  double lateral = 0;  ///< distance of the spanned point from the ray (hit) or origin (inside)
   double margin = 0;   ///< miss: from the plane to the ray; negative if the ray crosses it
-  /// Hit: how far the claimed point lies off the claimed plane or above the proven one.
+  /// Hit: distance of the claimed point from the claimed plane, or its height above the proven one.
   double claim_error = 0;
-  double late = 0;     ///< hit: how far beyond the proven t_hi the claimed t is, along the ray
+  double late = 0;     ///< hit: distance along the ray of the claimed t beyond the proven t_hi
   double allowed = 0;  ///< limit of gap, lateral, -margin and claim_error
 
   double t_lo() const { return sum_or_less(t_base, offset_lo); }
   double t_hi() const { return sum_or_more(t_base, offset_hi); }
 };
 
-/// Exhausted claims nothing, and so nothing holds of it.
+/// Checks a certificate. Never holds for Status::exhausted, which claims nothing.
 CertificateVerdict check_certificate(const SupportFunction& support, const Ray<double>& ray,
                                      const Claim& claim, const Certificate& certificate);
 

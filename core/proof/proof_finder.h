@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Finds the proof of a result, by the GJK ray cast and the GJK distance of van den Bergen (2004),
-// which both end with a point that is spanned by support points. Points are relative to the
-// shape's middle.
+// Finds the proof of a result by the GJK ray cast and the GJK distance of van den Bergen (2004).
+// Both end with a point that is spanned by support points. Points are relative to the shape's
+// middle.
 #pragma once
 
 #include <cmath>
@@ -14,19 +14,18 @@
 
 namespace minkray::proof {
 
-/// Touching ellipsoids of 1:1000 were seen to take 160.
+/// Limit of support points. Touching ellipsoids of 1:1000 took 160.
 inline constexpr int most_supports = 400;
 
-/// Angles: the first is the square root of a machine epsilon, the others reach further where the
-/// normal itself is less certain, or the hit point further from a corner.
+/// Angles of tilted directions. The first is the square root of the machine epsilon. The others are
+/// for normals that are less certain, and for hit points that are further from a corner.
 inline constexpr std::array tilts = {0x1p-26, 0x1p-24, 0x1p-21, 0x1p-14};
 inline constexpr int tilt_directions = 6;
 inline constexpr int refinements = 24;
 
-/// Steps converge as fast as Newton's method once they are near.
+/// Steps converge like Newton's method when they are near.
 inline constexpr int secant_steps = 16;
-/// Factor by which the next step is longer after one that led nowhere, as within a corner's
-/// normals.
+/// Factor of the next step's length after a step without effect, such as within a corner's normals.
 inline constexpr double longer_step = 16;
 
 /// Finds points of one shape near one ray.
@@ -46,9 +45,9 @@ class Finder {
     return support_(n) - near_.centre;
   }
 
-  /// The ray cast from lambda on: the first point of the ray that lies in the shape, spanned by
-  /// support points, and the last plane that clipped the ray. Answers how far the spanned point is
-  /// from it: infinite for a miss.
+  /// Casts the ray from lambda on: finds its first point in the shape, spanned by support points,
+  /// and the last plane that clipped the ray. Returns the distance of the spanned point from the
+  /// ray's; infinite for a miss.
   double enter(Vec3<double> n, double& lambda) {
     Vec3<double> x = near_.at(lambda);
     SpannedPoint spanned(x.cast<Long>());
@@ -77,9 +76,9 @@ class Finder {
     return spanned.off();
   }
 
-  /// The points of the shape and of the ray's part from a to b that are nearest to each other: the
-  /// shape's is spanned by support points. Answers their distance; the plane between them is
-  /// `separating`.
+  /// Finds the points of the shape and of the ray's part from a to b that are nearest to each
+  /// other. The shape's point is spanned by support points. Returns their distance; `separating` is
+  /// the normal of the plane between them.
   double nearest(double a, double b, Vec3<double> n, Vec3<double>& separating) {
     SpannedPoint spanned(Vec3<Long>::Zero());
     double widest = -std::numeric_limits<double>::infinity();
@@ -101,11 +100,11 @@ class Finder {
     return spanned.off();
   }
 
-  /// The point of the shape near x(lambda), where its normal is about n: found among the triangles
-  /// of support points in directions tilted a little from n. On a face with rounding around it, or
-  /// a patch of curvature radius rho, tilts by delta give points rho * delta around the hit point
-  /// and only rho * delta^2 under it. Answers how far the best is from x(lambda). In long double,
-  /// since between the corners of a sliver a point is only known as well as the sliver is thin.
+  /// Finds the point of the shape near x(lambda), where its normal is about n, among triangles of
+  /// support points in directions tilted a little from n. On a face with rounding around it, or a
+  /// patch of curvature radius rho, tilts by delta give points rho * delta around the hit point and
+  /// only rho * delta^2 under it. Returns the distance of the best point from x(lambda). In long
+  /// double, since the precision of a point between a sliver's corners depends on its thinness.
   double refine(double lambda, const Vec3<double>& n) {
     const Vec3<Long> x = near_.s.cast<Long>() + Long(lambda) * near_.r.cast<Long>();
     std::vector<Seen> seen;
@@ -121,7 +120,7 @@ class Finder {
     see(n);
     for (const double delta : tilts)
       for (int i = 0; i < tilt_directions; ++i) see(n + delta * around(n, i));
-    // The nearest triangle of all; then more support points where it is not near enough.
+    // Finds the nearest of all triangles; if it is not near enough, adds support points there.
     ClosestPoint<Long> best;
     Long best_squared = std::numeric_limits<Long>::infinity();
     std::array<std::size_t, 3> corners{};
@@ -148,11 +147,11 @@ class Finder {
     const auto is_near_enough = [&] {
       return std::sqrt(best_squared) <= Long(tolerance::proof_on_the_spot * rounding_);
     };
-    // From n, and from the direction in which x lies, which is one of the normals of most rims.
+    // Searches from n, and from the direction of x, which is one of the normals at most rims.
     for (const Vec3<double>& from : {n, unit<double>(x.cast<double>())})
       if (!is_near_enough() && !from.isZero(0) && see(towards(x, from))) try_with_last();
     for (int round = 0; round < refinements && !is_near_enough(); ++round) {
-      // Searches beyond the triangle's side: n turned towards it, little and much.
+      // Searches beyond the triangle's side, with n tilted towards it by small and large angles.
       const Vec3<double> v = (best.v / std::sqrt(best_squared)).cast<double>(),
                          aside = unit<double>(v - n.dot(v) * n);
       bool found = false;
@@ -164,7 +163,7 @@ class Finder {
       const Long before = best_squared;
       for (const double delta : tilts) look(n + delta * aside);
       look(v);
-      // Along an edge the support point of v may be at the other end.
+      // If v is the normal of an edge, its support point may be the other end.
       if (best_squared > before / 4)
         for (int i = 0; i < tilt_directions; ++i) look(v + tilts.front() * around(v, i));
       if (!found) break;
@@ -186,15 +185,15 @@ class Finder {
     Vec3<double> direction;
   };
 
-  /// The i-th of the directions at right angles to n in which it is tilted.
+  /// Returns the i-th direction, perpendicular to n, towards which n is tilted.
   static Vec3<double> around(const Vec3<double>& n, int i) {
     const Vec3<double> a = n.unitOrthogonal(), b = n.cross(a);
     const double angle = 2 * std::numbers::pi * i / tilt_directions;
     return std::cos(angle) * a + std::sin(angle) * b;
   }
 
-  /// A direction whose support point is nearer to x than n's, where the surface bends, as along a
-  /// rim: the secant method, since the point wanders along with the direction.
+  /// Returns a direction whose support point is nearer to x than n's, if the surface bends, as
+  /// along a rim. Uses the secant method, since the point moves with the direction.
   Vec3<double> towards(const Vec3<Long>& x, Vec3<double> n) {
     if (!(near_.size > 0)) return n;
     double step = 1 / near_.size;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Results that are checked again, with the proofs of certificate.h, before they are returned:
-// where a solver's own rounding is no measure of them.
+// Checks results with the proofs of certificate.h before they are returned: for shapes whose error
+// a solver's own rounding does not bound.
 #pragma once
 
 #include "core/math/bounds.h"
@@ -13,15 +13,16 @@ namespace minkray {
 struct ProvenCast {
   CastResult<double> answer;
   bool holds = false;
-  /// Holds, and the point it spans is off by points' rounding alone, without the more that the
-  /// middles of slivers are allowed; or the plane, of a miss.
+  /// Holds, and the spanned point (or the plane of a miss) is off by the rounding of points only,
+  /// without the larger tolerance for the middles of slivers.
   bool is_sharp = false;
 };
 
-/// The answer, and whether and how well a certificate of it holds. A hit is moved to the point that
-/// its certificate spans, if it has one. `near` is relative to the ball's centre, the ball holds
-/// the shape, and the normal is in the shape's frame. A point that the ray passes is looked for at
-/// the claimed one, and beyond it as far as rounding is along the ray; if `before`, as far before.
+/// Returns the answer with the result of its certificate. A hit moves to the point that its
+/// certificate spans, if there is one. `near` is relative to the ball's centre, the ball must
+/// contain the shape, and the normal is in the shape's frame. The spanned point is searched from
+/// the claimed one on, up to the rounding along the ray beyond it; if `before`, from as far before
+/// it.
 ProvenCast proven(const Shape<double>& shape, const Ball<double>& ball,
                   const RayNearBall<double>& near, const CastResult<double>& answer,
                   bool before = false);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A point that support points span: a simplex of the GJK algorithms, in long double, that remembers
-// the directions its corners were found in.
+// A point that support points span: a simplex of the GJK algorithms, in long double, which stores
+// the directions in which its corners were found.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,7 @@ class SpannedPoint {
     simplex_.move(x);
     squared_ = std::numeric_limits<long double>::infinity();
   }
-  /// Adds p, the support point along n (seen from x: the difference to it); false if it brought
-  /// nothing nearer.
+  /// Adds p, the support point along n. False if the spanned point came no nearer to x.
   bool add(const Vec3<long double>& p, const Vec3<double>& n) {
     if (simplex_.full() || simplex_.holds(p)) return false;
     directions_[static_cast<std::size_t>(simplex_.add(p))] = n;
@@ -40,8 +39,8 @@ class SpannedPoint {
   /// Vector from the spanned point to x.
   const Vec3<long double>& v() const { return closest_.v; }
 
-  /// Distance of x from the point that the weights span: |v|, except for a tetrahedron that holds
-  /// x, where v is zero and this is the rounding of its volumes.
+  /// Distance of x from the point that the weights span: |v|, except for a tetrahedron that
+  /// contains x, where v is zero and this is the rounding of its volumes.
   double off() const {
     Vec3<long double> sum = Vec3<long double>::Zero();
     long double weights = 0;
@@ -54,8 +53,8 @@ class SpannedPoint {
     return static_cast<double>((sum / weights).norm());
   }
 
-  /// Finds by elimination the weights with which the corners of a tetrahedron that holds x span x:
-  /// ratios of volumes lose the digits that a sliver's volume has lost.
+  /// For a tetrahedron that contains x: finds the weights with which its corners span x by
+  /// elimination, since ratios of volumes lack the digits that a sliver's volume has lost.
   void balance() {
     if (!full()) return;
     Mat3<long double> edges;

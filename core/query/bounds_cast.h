@@ -10,16 +10,16 @@
 
 namespace minkray {
 
-/// A ray's line from the middle of a shape's bounds, in the shape's frame, and what its numbers
-/// were rounded by: sums of the sizes of what they are sums of.
+/// A ray's line relative to the middle of a shape's bounds, in the shape's frame. The sizes are
+/// sums of the absolute values of the summands; rounding is relative to them.
 template <class W>
 struct LineFromCentre {
   Vec3<W> origin, direction;
   W origin_size, direction_size;
 };
 
-/// Lanes whose line meets the bounds are open; of the others `normal` is that of a plane between
-/// line and bounds, of unit length.
+/// Lanes whose line meets the bounds are open. In the others, `normal` is the unit normal of a
+/// plane between line and bounds.
 template <class W>
 struct BoundsCast {
   Mask<W> open = Mask<W>(false);
@@ -28,8 +28,8 @@ struct BoundsCast {
 };
 
 /// Casts the line at the axis-aligned box with these half extents around the centre, which has a
-/// ball of radius R around it. Nothing is divided and the ray is not moved, so that misses are
-/// found quickly; lines that pass by within rounding, which grows with the origin's distance, stay
+/// ball of radius R around it. Uses no division and does not move the ray, so misses are found
+/// quickly. Lines that miss by less than rounding, which grows with the origin's distance, stay
 /// open.
 template <class W>
 [[gnu::always_inline]] inline BoundsCast<W> cast_at_box(const LineFromCentre<W>& line,
@@ -39,7 +39,7 @@ template <class W>
   using std::copysign;
   using T = Lane<W>;
   const Vec3<W>&o = line.origin, &d = line.direction;
-  // In the direction d x e_k, to either side, the line is o . (d x e_k) = (o x d)_k away.
+  // Along d x e_k, to either side, the line's offset is o . (d x e_k) = (o x d)_k.
   const Vec3<W> crosswise = o.cross(d);
   const Vec3<W> size(abs(d.x()), abs(d.y()), abs(d.z()));
   const Vec3<W> h = widen<W>(half_extents);
@@ -48,7 +48,7 @@ template <class W>
   const Mask<W> by_x = abs(crosswise.x()) > h.y() * size.z() + h.z() * size.y() + padding;
   const Mask<W> by_y = abs(crosswise.y()) > h.z() * size.x() + h.x() * size.z() + padding;
   const Mask<W> by_z = abs(crosswise.z()) > h.x() * size.y() + h.y() * size.x() + padding;
-  // Shorter directions may have lost digits, larger terms overflow.
+  // Shorter directions may have lost digits; larger terms may overflow.
   const Mask<W> certain = (line.direction_size > W(least_to_square<T>)) &
                           (largest_term < W(std::numeric_limits<T>::max() / T(8)));
   BoundsCast<W> result;
@@ -63,9 +63,9 @@ template <class W>
   return result;
 }
 
-/// The lanes of `bounds` that are open at the bounding ball, which the ray must be given relative
-/// to: those that pass it by, or end before it, or begin behind it, miss. Rays without a direction
-/// and shapes without size are closed.
+/// Casts the open lanes of `bounds` at the bounding ball; the ray must be relative to its centre.
+/// Rays that pass by the ball, end before it or begin behind it miss. Lanes are closed if the ray
+/// has no direction or the shape no size.
 template <class W>
 void cast_at_ball(const RayNearBall<W>& near, Lane<W> R, BoundsCast<W>& bounds) {
   using std::max;

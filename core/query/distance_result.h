@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Result of a distance query: the distance between its bounds, the points that have it, the plane
-// that proves it, and its cost.
+// Result of a distance query: the distance and its lower bound, the closest points, the plane that
+// proves it, and its cost.
 #pragma once
 
 #include <span>
@@ -33,17 +33,17 @@ constexpr std::string_view name_of(DistanceStatus status) {
 template <class T, int Dim>
 struct DistanceResult {
   DistanceStatus status = DistanceStatus::exhausted;
-  T distance = T(0);  ///< |v|, from the two points: never less than the truth, but for rounding
-  T lower = T(0);     ///< max v.w/|v|, the gap between two parallel planes: never more
+  T distance = T(0);  ///< |v|, of the two points: an upper bound, up to rounding
+  T lower = T(0);     ///< max v.w/|v|, the gap between two parallel planes
   /// The paper's |v|^2 - v.w, an upper bound of |v - v(A - B)|^2, which may be infinite. 0 if
   /// overlapping.
   T certificate = T(0);
-  Vec<T, Dim> point_a = Vec<T, Dim>::Zero();  ///< of A, closest to B; overlapping: common to both
-  Vec<T, Dim> point_b = Vec<T, Dim>::Zero();  ///< of B, closest to A; overlapping: common to both
+  Vec<T, Dim> point_a = Vec<T, Dim>::Zero();  ///< in A, closest to B; overlapping: in both
+  Vec<T, Dim> point_b = Vec<T, Dim>::Zero();  ///< in B, closest to A; overlapping: in both
   /// Unit normal of the separating planes, from A to B; zero if there are none.
   Vec<T, Dim> axis = Vec<T, Dim>::Zero();
   int iterations = 0;
-  int supports = 0;  ///< of A - B, each one support of A and one of B
+  int supports = 0;  ///< support points of A - B, each from one of A and one of B
   int backups = 0;  ///< number of times the distance subalgorithm fell back on its backup procedure
 };
 
@@ -51,11 +51,11 @@ struct DistanceResult {
 template <class T, int Dim>
 struct DistanceIteration {
   Vec<T, Dim> v;                        ///< the direction of the support call
-  Vec<T, Dim> w;                        ///< that support point, in C
+  Vec<T, Dim> w;                        ///< the support point, in C
   Vec<T, Dim> v_next;                   ///< the new simplex' point closest to the origin
   T lower;                              ///< lower bound of the distance so far
-  T upper;                              ///< |v_next|, or |v| where the loop ends at w
-  std::span<const Vec<T, Dim>> before;  ///< the simplex before w came
+  T upper;                              ///< |v_next|, or |v| if the loop ends at w
+  std::span<const Vec<T, Dim>> before;  ///< the simplex before w was added
   std::span<const Vec<T, Dim>> after;   ///< the vertices that carry v_next
 };
 

@@ -12,14 +12,14 @@ namespace minkray {
 template <class T>
 struct CastIteration {
   T lambda;                          ///< lower bound of the hit, a length from the closest approach
-  Vec3<T> x;                         ///< the ray's point at lambda
+  Vec3<T> x;                         ///< point of the ray at lambda
   Vec3<T> v;                         ///< the direction of the support call
-  Vec3<T> p;                         ///< that support point
+  Vec3<T> p;                         ///< the support point
   Vec3<T> w;                         ///< x - p
   std::span<const Vec3<T>> simplex;  ///< the support points kept after the iteration
 };
 
-/// Sees nothing and costs nothing.
+/// Ignores all iterations, at no cost.
 struct NoObserver {
   template <class T>
   void operator()(const CastIteration<T>&) const {}

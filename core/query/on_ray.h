@@ -10,7 +10,7 @@
 
 namespace minkray {
 
-/// No earlier than the ray's beginning, no later than its end, where t was rounded beyond.
+/// Limits t to the ray, if rounding moved it before the ray's beginning or beyond its end.
 template <class W, class Answer>
 [[gnu::always_inline]] inline void keep_on_ray(const Ray<W>& ray, Answer& answer) {
   using std::abs;
@@ -27,8 +27,8 @@ template <class W, class Answer>
   answer.offset_hi = max(answer.offset_hi, answer.t_offset);
 }
 
-/// False where lengths in the shape's own frame overflowed, or their squares vanished. The normal
-/// is of unit length, or zero.
+/// False in lanes where lengths in the shape's own frame overflowed or their squares underflowed.
+/// The normal must have unit length or be zero.
 template <class W, class Answer>
 [[gnu::always_inline]] inline Mask<W> has_numbers(const Answer& answer, const Vec3<W>& normal) {
   using T = Lane<W>;

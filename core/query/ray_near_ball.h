@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A ray seen from the shape's neighbourhood: precision must not depend on how far away its origin
-// is, so its parameter is split into a part that leads to the shape's centre and a part that is
-// counted from there.
+// A ray relative to a shape's centre. Its parameter is split into a part that leads to the centre
+// and a part that is counted from there, so that precision does not depend on the distance of the
+// ray's origin.
 #pragma once
 
 #include "core/math/bounds.h"
@@ -22,38 +22,40 @@ struct RayNearBall {
   W t_base;      ///< the ray's own parameter at s is t_base + t_shift
   W t_shift;
   W t_per_length;
-  /// Bounds the displacement of points on this ray, near the shape and beyond the rounding of the
-  /// shape's own points: the uncertainty of its place and its map.
+  /// Bounds the displacement of the ray's points near the shape, in addition to the rounding of the
+  /// shape's own points: the uncertainty of the shape's place and map.
   W loss = W(0);
 
   W t_offset(W lambda) const { return t_shift + lambda * t_per_length; }
-  /// Rounding error of that offset: the parts, their sum, and the length.
+  /// Rounding error of an offset: that of its parts, of their sum, and of the length.
   W offset_rounding(W offset) const {
     using std::abs;
     return (abs(t_shift) + abs(offset)) * W(tolerance::offset_rounding<Lane<W>>);
   }
 
-  /// True if s lost digits to the distance of the ray's origin, compared with a shape of radius R:
-  /// the first step's parameter is rounded as coarsely as that, and its remainder must be small.
+  /// True if s lost digits due to the distance of the ray's origin, relative to a shape of radius
+  /// R: rounding of the first step's parameter grows with that distance, and the rest must be
+  /// small.
   Mask<W> is_from_afar(Lane<W> R) const {
     using std::abs;
     return (abs(lambda_min) > W(tolerance::far_origin<Lane<W>> * R)) & (W(R) > W(0));
   }
 
-  /// Walks through these points the other way.
+  /// Returns the ray in the opposite direction.
   RayNearBall reversed() const {
     return {s, -r, -lambda_max, -lambda_min, t_base, t_shift, -t_per_length, loss};
   }
 
-  /// The ray's image under a linear map that takes the old centre to the new one; parameters stay.
+  /// Returns the ray under a linear map that takes the old centre to the new one, with the same
+  /// parameters.
   RayNearBall mapped(const Mat3<Lane<W>>& linear) const { return mapped_by(linear); }
-  /// Each lane has a map of its own.
+  /// Same, with one map per lane.
   RayNearBall mapped(const Mat3<W>& linear) const requires(LaneOf<W>::count > 1) {
     return mapped_by(linear);
   }
 
-  /// Like `mapped`, and adds the loss at a ball of radius R around the new centre, if the map's
-  /// numbers have been rounded once.
+  /// Same as `mapped`, and adds the loss that one rounding of the map's numbers causes at a ball of
+  /// radius R around the new centre.
   RayNearBall mapped_with_loss(const Mat3<Lane<W>>& linear, Lane<W> R) const {
     using std::abs;
     W length, correction;
@@ -73,7 +75,7 @@ struct RayNearBall {
     return mapped_by(linear, length, correction);
   }
 
-  /// The new length of r, and how far the new closest approach is along it.
+  /// Also returns the new length of r, and the shift of the closest approach along it.
   template <class M>
   [[gnu::always_inline]] RayNearBall mapped_by(const Mat3<M>& linear, W& safe_length,
                                                W& correction) const {
@@ -101,7 +103,7 @@ inline constexpr bool is_two_fold = false;
 template <class C>
 inline constexpr bool is_two_fold<TwoFoldVec3<C>> = true;
 
-/// The way from a centre in numbers of their own to a point, and what it lacks.
+/// Returns point - centre with its rounding error.
 template <class W, class C>
 [[gnu::always_inline]] inline TwoFoldVec3<W> way_from(const TwoFoldVec3<C>& centre,
                                                       const Vec3<W>& point) {
@@ -110,8 +112,8 @@ template <class W, class C>
   return way;
 }
 
-/// One centre for all lanes, or one in each. From a two-fold centre the ray is seen to all digits,
-/// wherever that is; from another, to those that points there have.
+/// Takes one centre for all lanes, or one per lane. Relative to a two-fold centre, the ray has all
+/// digits, wherever the centre is; otherwise it has the digits of points near the centre.
 template <class W, class Centre>
 [[gnu::always_inline]] inline RayNearBall<W> ray_near_here(const Centre& centre_of_ball,
                                                            const Ray<W>& ray) {
@@ -121,8 +123,8 @@ template <class W, class Centre>
   using std::sqrt;
   using T = Lane<W>;
 
-  // Powers of two keep the scaled direction exact, and its square in range; denormal
-  // directions take two of them, since their numbers have no leading power.
+  // Powers of two keep the scaled direction exact, and its square in range; subnormal directions
+  // need two of them, since their numbers have no leading power.
   constexpr T up = std::is_same_v<T, float> ? T(0x1p100) : T(0x1p900);
   const W longest =
       max(abs(ray.direction.x()), max(abs(ray.direction.y()), abs(ray.direction.z())));
@@ -154,19 +156,19 @@ template <class W, class Centre>
   near.s = along(close, more_steps);
   const W per_length = W(1) / length;
   near.r = direction * per_length;
-  near.t_base = steps * second * first;  // in this order, it is a number if the product is
+  near.t_base = steps * second * first;  // in this order, finite if the product is
   near.t_shift = more_steps * second * first;
   near.t_per_length = second * per_length * first;
   near.lambda_min = -steps * length - more_steps * length;
-  // Counted from s, where the end keeps its digits if it is not far from the shape.
+  // Relative to s, so that the end keeps its digits if it is near the shape.
   const W left = ray.t_max * (size * (W(1) / first)) - steps - more_steps;
   near.lambda_max = select(has_direction, W(left * length), W(0));
   return near;
 }
 
 #if defined(__x86_64__)
-/// Uses fma as an instruction, where the machine has it; elsewhere fma is a function call, six
-/// times over. Compiled in one place, so that no other flags give other bits.
+/// Uses the instruction for fma if the machine has it; otherwise fma is a function, called six
+/// times. Compiled in one place, so that other flags do not change bits.
 RayNearBall<float> ray_near_with_fma(const Vec3<float>& centre, const Ray<float>& ray);
 RayNearBall<double> ray_near_with_fma(const Vec3<double>& centre, const Ray<double>& ray);
 RayNearBall<float> ray_near_with_fma(const TwoFoldVec3<float>& centre, const Ray<float>& ray);
@@ -175,10 +177,10 @@ RayNearBall<double> ray_near_with_fma(const TwoFoldVec3<double>& centre, const R
 
 }  // namespace detail
 
-/// The ray moved to its closest approach to `centre`, which is a Vec3 or a TwoFoldVec3 of lanes.
-/// Two steps, since the rounding of the first one's parameter is as coarse as the origin is far; s
-/// itself is rounded only as coarsely as centre (unless that is two-fold) and shape are large,
-/// because fma rounds once and walks along the direction as given, not along a rounded unit vector.
+/// Moves the ray to its closest approach to `centre`, which is a Vec3 or a TwoFoldVec3 of lanes.
+/// Takes two steps, since rounding of the first one's parameter grows with the origin's distance. s
+/// is only rounded relative to the centre (unless that is two-fold) and the shape's size: fma
+/// rounds once, and steps are along the direction as given, not along a rounded unit vector.
 template <class W, class Centre>
 requires(std::is_same_v<Centre, Vec3<Lane<W>>> ||
          std::is_same_v<Centre, TwoFoldVec3<Lane<W>>>) RayNearBall<W> ray_near(const Centre& centre,
@@ -190,14 +192,14 @@ requires(std::is_same_v<Centre, Vec3<Lane<W>>> ||
   return detail::ray_near_here<W>(centre, ray);
 }
 
-/// Each lane has a centre of its own.
+/// Same, with one centre per lane.
 template <class W>
 requires(LaneOf<W>::count > 1) RayNearBall<W> ray_near(const Vec3<W>& centre, const Ray<W>& ray) {
   return detail::ray_near_here<W>(centre, ray);
 }
 
-/// Moves one ray whose origin is further away than far_origin, with digits to spare; it is no
-/// better beyond farthest_origin.
+/// Moves one ray whose origin is further away than far_origin, with more digits. Beyond
+/// farthest_origin, these do not suffice either.
 template <class T>
 RayNearBall<T> ray_near_from_afar(const std::type_identity_t<TwoFoldVec3<T>>& centre,
                                   const Ray<T>& ray) {

@@ -53,33 +53,32 @@ constexpr std::string_view name_of(Path path) {
   return "unknown";
 }
 
-/// The answer of every ray cast. All vectors are in the frame of the ray that was cast.
+/// Result of every ray cast. All vectors are in the frame of the ray that was cast.
 template <class T>
 struct CastResult {
   Status status = Status::exhausted;
   Path path = Path::model;
 
-  /// The hit parameter is t_base + t_offset. The two are kept apart because their sum, for a far
-  /// origin, loses the digits that locate the hit on the shape: t_base is the ray's closest
+  /// The hit parameter is t_base + t_offset. The two are stored separately because their sum, for a
+  /// far origin, loses the digits that locate the hit on the shape: t_base is the ray's closest
   /// approach to the shape's centre, t_offset is counted from there.
   T t_base = T(0);
   T t_offset = T(0);
 
   /// The hit parameter lies in t_base + [offset_lo, offset_hi], for the shape at its prepared
-  /// place. On the path `filter` the interval is the closed form's error bound. Otherwise the
-  /// lower end comes from a supporting plane, the upper end from support points that the ray
-  /// passes between, both with an allowance for rounding; infinite where there are no such points,
-  /// as at an edge that the ray passes within rounding, and for solvers that are requested by
-  /// name.
+  /// place. On the path `filter` the interval is the closed form's error bound. Otherwise the lower
+  /// end comes from a supporting plane, the upper end from support points that the ray passes
+  /// between; both include rounding. The upper end is infinite if there are no such points, such as
+  /// at an edge that the ray passes within rounding, and for solvers that are requested by name.
   T offset_lo = T(0);
   T offset_hi = std::numeric_limits<T>::infinity();
 
-  /// Hit: the outward unit normal at the hit point (where edges leave it free, one of the normals).
-  /// Miss: the normal of a plane between ray and shape. Inside: zero.
+  /// Hit: the outward unit normal at the hit point (at an edge, one of the normals). Miss: the
+  /// normal of a plane between ray and shape. Inside: zero.
   Vec3<T> normal = Vec3<T>::Zero();
 
   int iterations = 0;
-  int supports = 0;  ///< support points that the search took, without those of the upper bound
+  int supports = 0;  ///< support points of the search, without those of the upper bound
 
   T t() const { return t_base + t_offset; }
   bool found() const { return status == Status::hit || status == Status::inside; }

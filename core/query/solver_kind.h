@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The list of ray cast solvers: what `--solver` takes.
+// The list of ray cast solvers: the values of `--solver`.
 #pragma once
 
 #include <array>

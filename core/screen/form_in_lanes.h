@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Closed forms in float lanes, for kernels that screen. All has internal linkage: see
-// core/math/wide.h.
+// Closed forms in float lanes, for kernels that screen. Everything here has internal linkage
+// (core/math/wide.h).
 #pragma once
 
 #include "core/exact/box.h"
@@ -23,7 +23,7 @@ inline __m128 four(const float* from) {
   return _mm_loadu_ps(from);
 }
 
-/// Four numbers of each lane, read by four_of(lane), side by side.
+/// Transposes four numbers per lane, which four_of(lane) reads.
 template <class FourOf>
 [[gnu::always_inline]] inline std::array<W, 4> side_by_side(const FourOf& four_of) {
   const auto both = [&](std::size_t lane) {
@@ -38,14 +38,14 @@ template <class FourOf>
           w(_mm256_shuffle_ps(ab_high, cd_high, 0xEE))};
 }
 
-/// Numbers of ScreenForm, lane by lane.
+/// The members of ScreenForm in lanes.
 struct FormInLanes {
   std::array<W, 4> sizes;
   W slope, sine, R, least, extent, up;
   Vec3<W> scale, offset;
-  const std::vector<float>* planes = nullptr;  ///< of all lanes
+  const std::vector<float>* planes = nullptr;  ///< the same for all lanes
 
-  /// One for all lanes.
+  /// Uses the same form in all lanes.
   explicit FormInLanes(const Screen& screen) : FormInLanes(screen.form) {
     planes = screen.planes.get();
   }
@@ -60,7 +60,7 @@ struct FormInLanes {
         scale(W(form.scale[0]), W(form.scale[1]), W(form.scale[2])),
         offset(W(form.offset[0]), W(form.offset[1]), W(form.offset[2])) {}
 
-  /// One in each lane.
+  /// Uses one form per lane.
   explicit FormInLanes(const ScreenForm* const (&forms)[screen_lanes]) {
     const auto from = [&](std::size_t place) {
       return side_by_side([&](std::size_t lane) {
@@ -82,9 +82,9 @@ struct FormInLanes {
 static_assert(offsetof(ScreenForm, slope) == 16 && offsetof(ScreenForm, scale) == 32 &&
               offsetof(ScreenForm, offset) == 48 && sizeof(ScreenForm) == 64);
 
-/// Lines in the lanes between all planes of one polytope: four numbers bound where they enter and
-/// leave. E holds what float loses of a plane: its normal, its offset and the sums are rounded by
-/// less than 2^-21 of what is near.
+/// Tests lines in lanes against all planes of one polytope: four numbers bound entry and exit. E
+/// includes the rounding of planes to float: normal, offset and sums are rounded by less than 2^-21
+/// of the size of near positions.
 [[gnu::always_inline]] inline exact::Entry<W> enter_planes_alike(const FormInLanes& form,
                                                                  const exact::Line<W>& line,
                                                                  const Mask<W>& open) {
@@ -130,14 +130,14 @@ template <FormKind kind>
     return exact::enter_frustum(form.slope, form.sine, a[2], a[3], form.R, line, open);
 }
 
-/// Not inlined.
+/// Same as enter, but not inlined.
 template <FormKind kind>
 [[gnu::noinline]] exact::Entry<W> enter_again(const FormInLanes& form, const exact::Line<W>& line,
                                               const Mask<W>& open) {
   return enter<kind>(form, line, open);
 }
 
-/// work.operator()<kind>().
+/// Returns work.operator()<kind>().
 template <class Work>
 inline ScreenBits for_kind(FormKind kind, const Work& work) {
   switch (kind) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pose of an instance, in as few bytes as kernels can read: the leading digits, one cache line,
-// suffice for nearly all queries; the trailing ones make the map exact.
+// Pose of an instance in few bytes, for kernels: the leading digits, in one cache line, suffice for
+// nearly all queries; the trailing digits make the map exact.
 #pragma once
 
 #include <bit>
@@ -12,23 +12,23 @@
 
 namespace minkray {
 
-/// x -> to_inner (x - origin) leads from the world to the frame of an InstanceBody.
+/// The map x -> to_inner (x - origin), from the world to the frame of an InstanceBody.
 struct alignas(64) InstancePlace {
   double origin[3];
   float to_inner[9];   ///< column by column, rounded to nearest
-  std::uint32_t body;  ///< index of the InstanceBody, or a number of what has none
+  std::uint32_t body;  ///< index of the InstanceBody, or a number for instances without one
 };
 static_assert(sizeof(InstancePlace) == 64);
 
 inline constexpr std::uint32_t no_body = std::numeric_limits<std::uint32_t>::max();
 
-/// Units in the last place by which the exact map differs from the rounded one.
+/// Differences between the exact map and the rounded one, in units in the last place.
 struct TrailingDigits {
   std::int32_t of[9];
 };
 
-/// Splits a number into a float and the units in the last place that it differs by. False if float
-/// has no such number: beyond its range, or so small that it has fewer digits.
+/// Splits a number into a float and a difference in units in the last place. False if the number is
+/// beyond the range of float or subnormal in float.
 inline bool split(double x, float& leading, std::int32_t& trailing) {
   leading = static_cast<float>(x);
   const float size = std::abs(leading);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Screens eight pairs of a ray and a posed shape at once before any cast: each surely misses, or
-// is met between two parameters. The closed forms are those of casts, in float lanes with bounds
-// for float (docs/forms.md, "Casts with an error bound"); sizes are numbers of the lane, so that
-// shapes of one kind go together whatever their sizes.
+// Screens eight pairs of a ray and a posed shape at once, before any cast: proves a miss, or bounds
+// the hit by two parameters. Uses the closed forms of casts in float lanes, with bounds for float
+// (docs/forms.md, "Casts with an error bound"). Each lane has its own sizes, so that shapes of one
+// kind are screened together whatever their sizes.
 #pragma once
 
 #include <array>
@@ -18,12 +18,12 @@ namespace minkray {
 
 inline constexpr int screen_lanes = 8;
 
-/// A form's numbers as a lane takes them: those of exact::Form.
+/// The numbers of an exact::Form for a lane.
 struct alignas(64) ScreenForm {
   std::array<float, 4> sizes = {};
   float slope = 0, sine = 0, R = 0;
-  /// The bounds hold where positions are known to a small share of it: the least radius of what is
-  /// round, and R.
+  /// Least radius of curvature. The bounds require errors of positions to be small relative to it
+  /// and to R.
   float least = 0;
   std::array<float, 3> scale = {1, 1, 1};
   /// Magnitude of positions near the form, in the form's frame.
@@ -32,12 +32,12 @@ struct alignas(64) ScreenForm {
   float up = 1;  ///< -1: upside down
 };
 
-/// A definition for screening in lanes: its form or, where lanes have none for it, a box around
+/// A definition for screening in lanes: its form or, if lanes do not support the form, a box around
 /// it.
 struct Screen {
   ScreenForm form;
   FormKind kind = FormKind::none;  ///< none: lanes cannot screen it
-  bool is_whole = false;           ///< the form is the shape, and not a box around it
+  bool is_whole = false;           ///< the form is that of the shape, not a box around it
   /// Five floats per plane of a polytope: normal, offset, depth.
   std::shared_ptr<const std::vector<float>> planes = {};
 };
@@ -45,30 +45,31 @@ struct Screen {
 /// Number of kinds of forms that lanes support.
 inline constexpr std::size_t form_kinds = static_cast<std::size_t>(FormKind::polytope) + 1;
 
-/// `centre`: of the inner ball, from the origin of the places' frame.
+/// Makes the screen of a definition. `centre` is that of the inner ball, relative to the origin of
+/// the places' frame.
 Screen screen_of(const ShapeDefinition<double>& definition, const Vec3<double>& centre);
 
-/// Parameters of the ray. A lane that surely misses what lies ahead, whatever t_max, is entered at
-/// infinity; one that is not sure to be met from outside is met at infinity at the latest.
+/// Bounds of the hit's parameter in each lane. `first` is infinite if the ray surely misses,
+/// whatever its t_max; `last` is infinite if the ray is not sure to hit from outside.
 struct alignas(32) Screened {
   std::array<float, screen_lanes> first, last;
 };
 
-/// Rays and places, to which pairs refer by index.
+/// Rays and places; pairs refer to them by index.
 struct ScreenList {
   const char* rays;    ///< Ray<double>
-  std::size_t stride;  ///< from one ray to the next, in bytes
+  std::size_t stride;  ///< distance between rays in bytes
   const InstancePlace* places;
   const Screen* screens;  ///< by body
-  const float* limits;    ///< by ray: nothing beyond is of interest
+  const float* limits;    ///< by ray: hits beyond are ignored
 };
 
-/// Bits of lanes that may be met up to their limit, and of those that surely are.
+/// Bits of lanes that may be hit up to their limit, and of those that surely are.
 struct ScreenBits {
   std::uint32_t open, sure;
 };
 
-/// Screens eight pairs, all of one kind other than `none`; on machines that have AVX2 and FMA.
+/// Screens eight pairs, all of one kind other than `none`; requires AVX2 and FMA.
 ScreenBits screen_avx2(FormKind kind, const ScreenList& list, const std::uint32_t* rays,
                        const std::uint32_t* instances, Screened& answers);
 

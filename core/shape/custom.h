@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A shape that a program gives as a function: its support mapping, and nothing else. No file can
-// hold one.
+// A shape given by the calling program as a function, its support mapping. Files cannot contain
+// such shapes.
 #pragma once
 
 #include <array>
@@ -14,34 +14,34 @@
 
 namespace minkray {
 
-/// Three coordinates, as other languages have them.
+/// Three coordinates in the form that other languages use.
 using Coordinates = std::array<double, 3>;
 /// A matrix of 3 x 3, row by row.
 using Derivative = std::array<double, 9>;
 
 /// A support mapping supplied by the caller. Any number of threads call it at once; equal
-/// directions must get equal points. Points must be finite even after an error: the implementation
+/// directions must give equal points. Points must be finite even after an error: the implementation
 /// stores the error and reports it when the query is done.
 class SupportSource {
  public:
   virtual ~SupportSource();
 
-  /// The points furthest along `count` directions, not more than `most`, which may be of any
-  /// length; for zero, some point.
+  /// Computes the points furthest along `count` directions (at most `most`), which may have any
+  /// length; any point for a direction of zero.
   void ask(std::size_t count, Coordinates* directions, Coordinates* points) const;
 
-  /// True if it provides derivatives of its points with respect to the direction; with a point in
-  /// the shape's middle.
+  /// True if the source provides derivatives of its points with respect to the direction, and a
+  /// point in the shape's middle.
   bool has_jets() const { return has_jets_; }
   const Coordinates& middle() const { return middle_; }
-  /// Numbers of the jet along a direction; an ellipsoid if it is `curved`, else a point.
+  /// Numbers of the jet along a direction: an ellipsoid if `curved`, else a point.
   struct JetNumbers {
     bool curved = false;
     Coordinates point = {0, 0, 0};
-    Derivative factor = {};  ///< of the ellipsoid around the middle
+    Derivative factor = {};  ///< factor of the ellipsoid around the middle
   };
-  /// Returns the point and its derivative, which is symmetric. Derivatives only guide casts, and
-  /// are not trusted: wrong ones cost time.
+  /// Returns the jet, computed from the point and its symmetric derivative. Derivatives only guide
+  /// casts: wrong ones only cost time.
   JetNumbers jet_along(Coordinates direction) const;
 
   static constexpr std::size_t most = 16;
@@ -53,7 +53,7 @@ class SupportSource {
   }
 
  private:
-  /// Answers `ask`, which has made the directions of unit length.
+  /// Implements `ask`, which passes unit directions.
   virtual void support(std::size_t count, const Coordinates* directions,
                        Coordinates* points) const = 0;
   /// Implements `ask_jets`; called only on objects that have called know_jets.
@@ -83,7 +83,7 @@ struct Custom {
     return support_where(Mask<W>(true), n);
   }
 
-  /// In the lanes that are wanted; in others the point of the first that is.
+  /// Support points in the lanes that are wanted; others get the point of the first wanted lane.
   template <class W>
   Vec3<W> support_where(const Mask<W>& wanted, const Vec3<W>& n) const {
     if constexpr (std::floating_point<W>) {
@@ -112,8 +112,8 @@ struct Custom {
     }
   }
 
-  /// A vertex as far as is known, and casts learn of the surface point by point; or, of a function
-  /// with derivatives, the ellipsoid around the middle that has its derivative.
+  /// Without derivatives, a point: casts find the surface point by point. With derivatives, the
+  /// ellipsoid around the middle that has the same derivative.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     if (!source->has_jets()) return PointJet<W>{support(n)};

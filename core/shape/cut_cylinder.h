@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A cylinder around the z axis, cut off by two planes that may be oblique.
+// A cylinder around the z axis, cut by two planes that may be oblique.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ struct CutCylinder {
               "the same of the upper plane", true}};
   }
 
-  /// The planes may touch where they leave the cylinder, but not cross in it.
+  /// The planes may touch at the cylinder's surface, but must not cross inside it.
   std::optional<Misfit> misfit() const {
     using std::hypot;
     constexpr T rounding = T(8) * std::numeric_limits<T>::epsilon();
@@ -67,7 +67,7 @@ struct CutCylinder {
     return {p.x(), p.y(), select(rims.is_upper, height(1, upper_slope), height(0, lower_slope))};
   }
 
-  /// The jet of the ellipse in which one of the planes cuts the cylinder.
+  /// Jet of the ellipse in which one of the planes cuts the cylinder.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     const Mask<W> is_upper = Rims<W>(*this, n).is_upper;
@@ -81,8 +81,8 @@ struct CutCylinder {
   }
 
  private:
-  /// Points over the unit disk at which each plane's ellipse reaches furthest along n, and a mask
-  /// that is set if the upper one reaches further.
+  /// Points of the unit disk below the point of each plane's ellipse that is furthest along n; the
+  /// mask is set if the upper ellipse reaches further.
   template <class W>
   struct Rims {
     Vec3<W> lower, upper;

@@ -8,8 +8,8 @@
 
 namespace minkray {
 
-/// The support point of the unit disk in the plane z = 0: the rim's, or the centre where the
-/// direction is along the axis and the whole disk is extreme.
+/// Support point of the unit disk in the plane z = 0: on the rim, or the centre if the direction is
+/// along the axis, in which the whole disk is extreme.
 template <class W>
 Vec3<W> unit_disk_support(const Vec3<W>& n) {
   return unit<W>({n.x(), n.y(), W(0)});

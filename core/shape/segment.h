@@ -22,7 +22,7 @@ struct Segment {
         Field{"points", &Segment::points, Unit::length, Range::any, "its two end points"}};
   }
 
-  /// Only what is rounded has one.
+  /// Used only if the segment is rounded.
   ExactForm exact_form() const {
     const Vec3<double> a = points[0].template cast<double>(), b = points[1].template cast<double>();
     const Vec3<double> half = (b - a) / 2, middle = a + half;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A convex shape of any kind. The list of all kinds is here and nowhere else: a new shape is its
-// own header and one line in ShapeVariant.
+// A convex shape of any kind. This is the only list of all kinds: a new shape is a header and one
+// line in ShapeVariant.
 #pragma once
 
 #include <type_traits>
@@ -77,8 +77,8 @@ struct Shape {
   Shape& operator=(Shape&& other) noexcept;
   ~Shape();
 
-  /// The point of the shape that lies furthest along n. n need not be of unit length; for n = 0
-  /// the answer is some point of the shape.
+  /// Returns the point of the shape that is furthest along n. n may have any length; for n = 0, the
+  /// result is any point of the shape.
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
     return std::visit([&](const auto& shape) -> Vec3<W> { return shape.support(n); }, kind);

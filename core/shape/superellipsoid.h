@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A superellipsoid |x/a|^p + |y/b|^p + |z/c|^p <= 1: the octahedron at p = 1, the ellipsoid at
-// p = 2, towards the box as p grows.
+// A superellipsoid |x/a|^p + |y/b|^p + |z/c|^p <= 1: an octahedron for p = 1, an ellipsoid for
+// p = 2, nearly a box for large p.
 #pragma once
 
 #include "core/math/power.h"
@@ -27,7 +27,7 @@ struct Superellipsoid {
 
   /// Hoelder's inequality with 1/p + 1/q = 1 gives s_i = a_i sign(n_i) (m_i/|m|_q)^(q-1) with m_i =
   /// |a_i n_i|. m is scaled by its largest component, so that no power overflows and p = 1 (q
-  /// infinite) comes out as a vertex, or the mean of the vertices that tie.
+  /// infinite) gives a vertex, or the mean of the vertices that tie.
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
     using std::abs;
@@ -50,8 +50,8 @@ struct Superellipsoid {
 
   /// With u = m/|m|_q and g_i = sign(n_i) u_i^(q-1), the osculating ellipsoid has the shape matrix
   /// diag(a) ((q-1) diag(u^(q-2)) - (q-2) g g^T) diag(a). On the coordinate planes the radius of
-  /// curvature is infinite where p > 2, so that g is kept above a small number there; where p < 2
-  /// it is 0 and has to be, as a model with a larger radius agrees with planes that cut it off.
+  /// curvature is infinite for p > 2, so g is kept above a small number there. For p < 2 the radius
+  /// is 0 and must stay 0, since a model with a larger radius agrees with planes that cut it off.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     using std::abs;
@@ -77,11 +77,11 @@ struct Superellipsoid {
   template <class W>
   struct Gauge {
     W value;
-    /// Gradient by x/a: has length 1 in the dual norm, so that gradient/a is the normal of the
-    /// supporting plane where a line from the middle to x meets the surface, and the gauge of x is
-    /// never less than gradient.(x/a).
+    /// Gradient with respect to x/a, which has length 1 in the dual norm, so that gradient/a is the
+    /// normal of the supporting plane where a line from the middle to x meets the surface, and the
+    /// gauge of x is never less than gradient.(x/a).
     Vec3<W> gradient;
-    W slope;      ///< by lambda
+    W slope;      ///< derivative by lambda
     W curvature;  ///< half of the second derivative of the gauge's square
   };
 
@@ -97,7 +97,7 @@ struct Superellipsoid {
     const T p = exponent;
     const Vec3<W> powers(power<W>(k.x(), p - T(1)), power<W>(k.y(), p - T(1)),
                          power<W>(k.z(), p - T(1)));
-    // The largest k is 1 but for rounding.
+    // The largest k is 1 up to rounding.
     const W sum = max(W(1), W(powers.dot(k)));
     const W root = power<W>(sum, T(1) / p), scale = root / sum;
     Gauge<W> gauge;
@@ -115,10 +115,11 @@ struct Superellipsoid {
   }
 
  private:
-  /// Floor of the coordinates that divide in the second derivative, which is infinite on the
-  /// coordinate planes for p < 2.
+  /// Lower limit of coordinates that are divisors in the second derivative, which is infinite on
+  /// the coordinate planes for p < 2.
   static constexpr T least_curvature = T(1) / T(4096);
-  /// For p up to 4, the osculating ellipsoid is at most about 1/this times as long as the shape.
+  /// Lower limit of g. For p up to 4, the osculating ellipsoid is at most about 1/least_of_jet
+  /// times as long as the shape.
   static constexpr T least_of_jet = T(1) / T(256);
 };
 

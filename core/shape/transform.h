@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A shape under an invertible affine map: moved, turned, scaled, sheared, mirrored.
+// A shape under an invertible affine map: translated, rotated, scaled, sheared, mirrored.
 #pragma once
 
 #include "core/support/affine_map.h"
@@ -36,12 +36,12 @@ struct Transform {
     return {map(inner.c), mapped_factor<W>(inner.F), inner.exact, map(inner.s)};
   }
 
-  /// F is an ellipsoid's factor; a ball stays one where lengths are scaled alike.
+  /// Maps an ellipsoid's factor F. A ball stays a ball if the map scales all lengths alike.
   template <class W>
   Mat3<W> mapped_factor(const Mat3<W>& F) const {
     Mat3<W> mapped = widen<W, T>(map.affine().linear) * F;
     if (map.similarity() > T(0)) {
-      // Each lane by itself, so that none depends on the others.
+      // Decides for each lane, so that no lane depends on the others.
       const Mat3<W> ball = Mat3<W>::Identity() * F(0, 0);
       const Mask<W> is_ball = (F - ball).cwiseAbs().sum() == W(0);
       const Mat3<W> scaled = ball * W(map.similarity());

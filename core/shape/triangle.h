@@ -22,7 +22,7 @@ struct Triangle {
         Field{"points", &Triangle::points, Unit::length, Range::any, "its three corners"}};
   }
 
-  /// Only what is rounded has one.
+  /// Used only if the triangle is rounded.
   ExactForm exact_form() const {
     ExactForm form{FormKind::triangle, {}, {}};
     for (std::size_t i = 0; i < 9; ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// An affine map as supports need it: s_{MC+t}(n) = M s_C(M^T n) + t.
+// An affine map in the form that support mappings need: s_{MC+t}(n) = M s_C(M^T n) + t.
 #pragma once
 
 #include "core/math/affine.h"
@@ -11,8 +11,8 @@ template <class T>
 class AffineMap {
  public:
   AffineMap() = default;
-  /// M^T is kept divided by M's largest entry (a support ignores a direction's length), so that
-  /// directions stay near unit size however small or large the map makes things.
+  /// M^T is stored divided by M's largest entry (support mappings ignore a direction's length), so
+  /// that directions stay near unit length however small or large the map's scale is.
   AffineMap(const Affine<T>& affine)
       : affine_(affine),
         to_inner_(affine.linear.transpose() / affine.linear.cwiseAbs().maxCoeff()),
@@ -20,7 +20,7 @@ class AffineMap {
 
   const Affine<T>& affine() const { return affine_; }
 
-  /// The factor by which the map scales all lengths alike, up to rounding; 0 if there is none.
+  /// Factor by which the map scales all lengths, up to rounding; 0 if lengths scale differently.
   T similarity() const { return similarity_; }
 
   template <class U>
@@ -28,7 +28,7 @@ class AffineMap {
     return AffineMap<U>(affine_.template cast<U>());
   }
 
-  /// The direction for the inner shape's support mapping.
+  /// Direction for the inner shape's support mapping.
   template <class W>
   Vec3<W> inner_direction(const Vec3<W>& n) const {
     return times(to_inner_, n);

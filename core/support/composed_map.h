@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Maps of shapes within shapes, composed in twice the digits: a shape that one map moves far away
-// and the next one back is where the maps' numbers put it. Carries a bound of the numbers' errors.
+// Maps of nested shapes, composed with twice the digits: a shape that one map moves far away and
+// the next one moves back is still at the exact place. Includes a bound of the maps' errors.
 #pragma once
 
 #include "core/math/length.h"
@@ -8,14 +8,14 @@
 
 namespace minkray {
 
-/// Rotations of files are quaternions, which a matrix holds to so much, relative to its largest
-/// entry: 3.9 epsilons were seen (Frobenius norm, 20,000 random quaternions).
+/// Error of a rotation matrix computed from a file's quaternion, relative to its largest entry. The
+/// largest one of 20,000 random quaternions was 3.9 epsilon (Frobenius norm).
 inline constexpr double rounding_of_turns = 4 * std::numeric_limits<double>::epsilon();
 
-/// Twice the digits, relative to the numbers that are added up.
+/// Rounding with twice the digits, relative to the summands.
 inline constexpr double two_fold_rounding = 0x1p-100;
 
-/// Each row has one entry at most: no turn was rounded.
+/// True if each row has at most one nonzero entry: no rotation was rounded.
 inline bool is_along_axes(const Mat3<double>& linear) {
   for (int i = 0; i < 3; ++i)
     if ((linear.row(i).array() != 0).count() > 1) return false;
@@ -25,15 +25,15 @@ inline bool is_along_axes(const Mat3<double>& linear) {
 struct ComposedMap {
   TwoFoldMat3<double> linear;
   TwoFoldVec3<double> translation;
-  double turn_error = 0;  ///< by how much `linear` may be off, as a length per length
-  double loss = 0;        ///< by how much `translation` may be off, a length
+  double turn_error = 0;  ///< error bound of `linear`, as a length per length
+  double loss = 0;        ///< error bound of `translation`, as a length
 
   ComposedMap() = default;
   ComposedMap(const Affine<double>& map) : linear(map.linear), translation(map.translation) {
     if (!is_along_axes(map.linear)) turn_error = rounding_of_turns * stretch();
   }
 
-  /// An image is no longer than this times what it is of.
+  /// Upper bound of the factor by which the map increases lengths.
   double stretch() const {
     const double largest = linear.high.cwiseAbs().maxCoeff();
     const Mat3<double> scaled = linear.high / (largest > 0 ? largest : 1);
@@ -41,7 +41,7 @@ struct ComposedMap {
     return largest * std::sqrt(squared.rowwise().sum().maxCoeff());
   }
 
-  /// The map's translation left out.
+  /// The map without its translation.
   ComposedMap about_origin() const {
     ComposedMap map = *this;
     map.translation = {};
@@ -66,7 +66,7 @@ struct ComposedMap {
            two_fold_rounding * length_of(translation.high);
   }
 
-  /// First `inner`, then this.
+  /// Applies `inner` first, then this map.
   ComposedMap operator*(const ComposedMap& inner) const {
     ComposedMap map;
     map.linear = linear * inner.linear;

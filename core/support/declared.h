@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Optional declarations in a shape's header beyond its support mapping and its jets. A shape
-// without declarations is cast at with those alone: the names of its fields and functions imply
+// Optional declarations in a shape's header, in addition to its support mapping and jets. Casts at
+// a shape without declarations use only those two: the names of its fields and functions imply
 // nothing.
 #pragma once
 
@@ -11,14 +11,13 @@ namespace minkray {
 struct Declared {
   /// The shape is the box of all points with |x_k| <= half_extents[k].
   bool slabs = false;
-  /// The shape is a polytope, and points.facets() are its facets, or null.
+  /// The shape is a polytope, and points.facets() returns its facets, or null.
   bool facets = false;
-  /// The surface is smooth, and gauge_along(u, v, lambda) returns its distance from points of a
-  /// line.
+  /// The surface is smooth, and gauge_along(u, v, lambda) returns the gauge at points of a line.
   bool gauge = false;
-  /// support_where(wanted, n) is support(n) where it is wanted, and cheaper where it is not.
+  /// support_where(wanted, n) equals support(n) in wanted lanes, and costs less for the others.
   bool support_where = false;
-  /// A program gives it: no file can hold one.
+  /// The calling program provides the shape; files cannot contain it.
   bool by_program = false;
 };
 

@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: MIT
-// Closed form of a shape for casts: the form's name and its numbers. A shape that declares none is
-// cast at by its support mapping alone. Nothing is ever guessed from the names or the number of a
-// shape's parameters.
+// Closed form of a shape for casts: the form's name and its numbers. Casts at a shape that declares
+// none use its support mapping and jets only. The names and number of a shape's parameters imply
+// nothing.
 #pragma once
 
 #include <array>
 
 namespace minkray {
 
-/// The closed forms there are, one file each in core/exact, and what their numbers mean. All lie
-/// around `middle`, along the axes of the shape's own frame. Lengths are not negative.
+/// The closed forms, one file each in core/exact, and the meaning of their numbers. All lie around
+/// `middle`, along the axes of the shape's own frame. Lengths are not negative.
 enum class FormKind : unsigned char {
   none,
   ball,             ///< radius
   ellipsoid,        ///< three radii
   box,              ///< three half extents
-  rounded_box,      ///< three half extents of what is rounded, radius
+  rounded_box,      ///< three half extents of the box before rounding, radius
   capsule,          ///< radius, half height: along z
   tapered_capsule,  ///< the balls' radii at -z and +z, half the distance of their centres
   cylinder,         ///< radius, half height: along z
   frustum,          ///< the disks' radii at -z and +z, half height
   cut_cylinder,     ///< radius, the planes' heights on the z axis, lower and upper slope along x, y
-  segment,          ///< half the way from end to end, along x, y, z; the radius it is grown by
-  triangle,         ///< three corners; the radius it is grown by
+  segment,          ///< half the vector from end to end; rounding radius
+  triangle,         ///< three corners; rounding radius
   polytope,         ///< has no numbers: shapes declare its facets (declared.h). Must be last
 };
 
-/// As many numbers as the largest form has.
+/// The numbers of a form; the largest form has this many.
 using FormSizes = std::array<double, 10>;
 
 struct ExactForm {
@@ -35,7 +35,7 @@ struct ExactForm {
   std::array<double, 3> middle = {};
 };
 
-/// The form's sum with a ball; none, where that is none of the forms.
+/// The form's Minkowski sum with a ball; FormKind::none if that has no closed form.
 inline ExactForm rounded(const ExactForm& form, double radius) {
   if (radius == 0) return form;
   ExactForm sum = form;

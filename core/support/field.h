@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Descriptions of a shape's parameters. JSON in and out, error messages that name the parameter,
-// `minkray info --shapes`, the JSON Schema, the conversion between float and double, and the typed
-// tests are all derived from them.
+// Descriptions of a shape's parameters. Derived from them are reading and writing JSON, error
+// messages that name the parameter, `minkray info --shapes`, the JSON Schema, the conversion
+// between float and double, and the typed tests.
 #pragma once
 
 #include <string_view>
@@ -11,8 +11,7 @@ namespace minkray {
 
 enum class Unit { none, length, degrees };
 
-/// Valid values of a number. Numbers must be finite whatever their range. zero_to_180 excludes
-/// both ends.
+/// Valid values of a number. All numbers must be finite. zero_to_180 excludes both ends.
 enum class Range {
   any,
   positive,
@@ -23,8 +22,8 @@ enum class Range {
   brightness
 };
 
-/// No light is brighter, in the scene's unit: products of a few such numbers, and sums of millions
-/// of them, are finite in a picture, whose numbers end at 3.4e38.
+/// Largest brightness of a light, in the scene's unit. Products of a few such numbers, and sums of
+/// millions of them, are finite in a picture of floats (up to 3.4e38).
 inline constexpr double most_brightness = 1e15;
 
 /// One parameter: the member of shape S that holds it. The member's type determines its form in
@@ -49,8 +48,8 @@ Field(std::string_view, M S::*, Unit, Range, std::string_view) -> Field<S, M>;
 template <class S, class M>
 Field(std::string_view, M S::*, Unit, Range, std::string_view, bool) -> Field<S, M>;
 
-/// A parameter that does not fit the others of its shape, and what it must be: a text that ends
-/// before a number. Shapes whose parameters must fit have a member misfit().
+/// A parameter that does not fit the others of its shape, and its requirement: a text that is
+/// followed by a number. Shapes whose parameters must fit each other have a member misfit().
 struct Misfit {
   std::string_view parameter;
   std::string_view must_be;

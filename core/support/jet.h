@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Jets: a shape's support mapping to second order (derived in docs/forms.md). In direction n a
-// shape looks like an ellipsoid with its support point and curvature. With h(n) = n.s(n), c an
-// interior point, g = s - c and H = ds/dn, its shape matrix around c is A = h H + g g^T. Stored is
-// a factor F, A = F F^T, since A itself loses half of the digits of flat features.
+// Jets: a shape's support mapping to second order (derived in docs/forms.md). In direction n, a
+// shape is approximated by an ellipsoid with the same support point and curvature. With
+// h(n) = n.s(n), c an interior point, g = s - c and H = ds/dn, its shape matrix around c is
+// A = h H + g g^T. Jets store a factor F, A = F F^T, since A itself loses half of the digits of
+// flat features.
 #pragma once
 
 #include <concepts>
@@ -11,11 +12,10 @@
 
 namespace minkray {
 
-/// The ellipsoid { c + F b : |b| <= 1 }; columns of F may be zero. `exact` means that the
-/// ellipsoid is part of the shape as a whole (the same one for all directions in which it
-/// touches), not only osculating in the requested direction; then `s` is the shape's support point
-/// there, and the ellipsoid may agree with it less well than in theory (where a radius of
-/// curvature is infinite).
+/// The ellipsoid { c + F b : |b| <= 1 }; columns of F may be zero. `exact` means that the whole
+/// ellipsoid is part of the shape (the same one for all directions in which it touches). Otherwise
+/// it only osculates in the requested direction: then `s` is the shape's support point there, from
+/// which the ellipsoid's may differ (where a radius of curvature is infinite).
 template <class W>
 struct Jet {
   Vec3<W> c = Vec3<W>::Zero();
@@ -28,14 +28,14 @@ struct Jet {
     if (!any(exact)) return s;
     return select<W>(exact, Vec3<W>(c + F * unit<W>(F.transpose() * n)), s);
   }
-  /// Support function of the shape along that n, in lengths of n.
+  /// Support function of the shape along that n, times the length of n.
   W support_function(const Vec3<W>& n) const {
     return select(exact, W(n.dot(c) + (F.transpose() * n).norm()), W(n.dot(s)));
   }
   Mask<W> is_point() const { return F.cwiseAbs().sum() == W(0); }
 };
 
-/// Lane by lane.
+/// Selects a where the condition is true, else b, lane by lane.
 template <class W>
 Jet<W> select(const Mask<W>& condition, const Jet<W>& a, const Jet<W>& b) {
   Jet<W> chosen;
@@ -85,8 +85,8 @@ struct AxialEllipsoidJet {
   operator Jet<W>() const { return {Vec3<W>::Zero(), radii.asDiagonal()}; }
 };
 
-/// A factor F with F F^T = A, for symmetric positive semidefinite A (Cholesky; what rounding makes
-/// negative counts as zero).
+/// Returns a factor F with F F^T = A, for symmetric positive semidefinite A (Cholesky; values that
+/// are negative due to rounding count as zero).
 template <class W>
 Mat3<W> factor(const Mat3<W>& A) {
   using std::sqrt;
@@ -119,8 +119,8 @@ Mat3<W> osculating_sum(const Mat3<W>& F_a, const Mat3<W>& F_b, const Vec3<W>& n)
                    g * g.transpose());
 }
 
-/// The jet of a Minkowski sum. A sum with a point stays exact, as does the sum of two balls; of two
-/// curved features the curvatures H add, and the sum only osculates.
+/// Jet of a Minkowski sum. The sum of an exact jet with a point stays exact, as does the sum of two
+/// balls. For two other curved features, the curvatures H are added, and the sum only osculates.
 template <class W>
 Jet<W> add(const Jet<W>& a, const Jet<W>& b, const Vec3<W>& n) {
   using T = Lane<W>;
@@ -135,8 +135,8 @@ Jet<W> add(const Jet<W>& a, const Jet<W>& b, const Vec3<W>& n) {
   if (all(simple)) return joined;
 
   Jet<W> sum{c, osculating_sum<W>(a.F, b.F, n), Mask<W>(false), s};
-  // A flat feature seen along its normal has no curvature to speak of: the feature as a whole,
-  // moved to the other's support point, lies in the sum and touches its plane.
+  // A flat feature has hardly any curvature along its normal: the whole feature, moved to the
+  // other's support point, lies in the sum and touches its plane.
   const W h_a = (a.F.transpose() * n).norm(), h_b = (b.F.transpose() * n).norm();
   const W flat = (h_a + h_b) * W(T(1) / T(1024));
   const Mask<W> a_flat = !(h_a > flat), b_flat = !(h_b > flat);

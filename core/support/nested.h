@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shapes inside shapes: how operators of the algebra hold their operands. Operands are immutable
-// and shared, so that copying a nested shape is cheap.
+// Shapes inside shapes: operands of rounding, sums, hulls and maps. Operands are immutable and
+// shared, so that copying a nested shape is cheap.
 #pragma once
 
 #include <memory>
@@ -26,7 +26,7 @@ class Nested {
   std::shared_ptr<const Shape<T>> shape_;
 };
 
-/// One operand or more.
+/// One or more operands.
 template <class T>
 using ShapeList = std::vector<Nested<T>>;
 

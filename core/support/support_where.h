@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Support points for some of a packet's lanes: shapes that answer lane by lane save the others.
+// Support points for some of a packet's lanes: shapes that compute lane by lane skip the others.
 #pragma once
 
 #include "core/math/vec.h"
@@ -7,7 +7,7 @@
 
 namespace minkray {
 
-/// The support point in direction n in the lanes that are `wanted`, in others any point.
+/// Returns the support point in direction n in the `wanted` lanes, and any point in the others.
 template <class W, class S>
 Vec3<W> support_where(const S& shape, const Mask<W>& wanted, const Vec3<W>& n) {
   if constexpr (declared_by<S>.support_where)

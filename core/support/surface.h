@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Classifies a shape's surface by its jets: the choice of solver depends on it.
+// Classifies a shape's surface by its jets, to choose a solver.
 #pragma once
 
 #include "core/support/jet.h"
@@ -10,21 +10,22 @@ enum class SurfaceKind : unsigned char {
   flat,        ///< a polytope: points are its only features
   translates,  ///< faces and edges between finitely many translates of one ellipsoid
   ellipsoids,  ///< faces and edges between finitely many ellipsoids
-  smooth,      ///< one curved patch, which jets only osculate
+  smooth,      ///< one curved patch that jets only osculate
   mixed,       ///< several patches, some of them only osculated by jets
 };
 
 inline constexpr int tilted_directions = 27;
 
-/// Slightly off the directions of a cube's faces, edges and corners, where shapes are special.
+/// Directions slightly off those of a cube's faces, edges and corners, which are special for many
+/// shapes.
 template <class T>
 Vec3<T> tilted_direction(int i) {
   const int x = i % 3 - 1, y = i / 3 % 3 - 1, z = i / 9 - 1;
   return Vec3<T>(T(x) + T(0.11), T(y) + T(0.07), T(z) + T(0.13));
 }
 
-/// Found by the jets in 27 slightly tilted directions: a description that steers the choice of a
-/// solver, but no result's correctness may depend on it.
+/// Classifies by the jets in 27 slightly tilted directions. The result may guide the choice of a
+/// solver, but the correctness of results must not depend on it.
 template <class T, class S>
 requires JetMapped<S, T> SurfaceKind surface_of(const S& shape) {
   bool all_points = true, all_exact = true, all_inexact = true, one_patch = true;

@@ -57,7 +57,7 @@ class Instances {
   void add_many(std::uint32_t definition, std::size_t count,
                 const std::function<Affine<double>(std::size_t)>& pose_of);
 
-  /// Removes all instances from the count-th on, which must have shapes.
+  /// Removes the instances whose index is at least `count`; they must have shapes.
   void truncate(std::size_t count);
 
   /// Moves one instance, which must not be a half-space. Its box is stale until pose_all.

@@ -44,9 +44,9 @@ class World {
                  BvhBuild build = BvhBuild::quality);
 
   /// Returns the first instance that the ray hits with 0 <= t <= t_max; of several at the same t,
-  /// the one with the least index. Ignores `skip`, the instance that the ray leaves: if convex, it
-  /// is not hit again; of a mesh, only the part nearest to the origin is ignored (leaving_mesh). A
-  /// cast that does not converge is neither a hit nor a miss; check `counts.exhausted`.
+  /// the one with the least index. Ignores `skip`, the instance that the ray leaves: all of it if
+  /// convex; of a mesh, only hits very near to the ray's origin (leaving_mesh). A cast that does
+  /// not converge is neither a hit nor a miss; check `counts.exhausted`.
   WorldHit closest_hit(const Ray<double>& ray, QueryCounts& counts,
                        std::uint32_t skip = no_instance, double time = 0) const {
     return closest_hit(WorldRay{ray, skip, time}, counts);
@@ -78,7 +78,8 @@ class World {
   void pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
                 const std::function<Movement<double>(std::size_t)>& movement_of = {});
 
-  /// Moves one instance; takes effect with the next pose_all.
+  /// Moves one instance but not its box: before the next query call pose_all, whose pose_of must
+  /// return this pose.
   void set_pose(std::size_t i, const Affine<double>& pose) { instances_.set_pose(i, pose); }
 
   const Instances& instances() const { return instances_; }
@@ -131,7 +132,7 @@ class World {
 
   Instances instances_;
   Bvh bvh_;         ///< of instances with shapes
-  Bvh mesh_boxes_;  ///< of meshes, by their order
+  Bvh mesh_boxes_;  ///< of meshes; indices are those in Instances::meshes()
   BvhBuild build_ = BvhBuild::quality;
   bool has_repeated_ = false;   ///< duplicates are left out of the BVH
   double visits_as_built_ = 0;  ///< expected per ray; 0: not known yet

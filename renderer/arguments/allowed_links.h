@@ -19,7 +19,7 @@ struct AllowedLinks {
     verb.add_option("--srdf", srdf, "SRDF file with pairs of links that may touch (MoveIt)")
         .reads_file();
     verb.add_option("--allow", pairs,
-                    "Links that may touch, besides those a joint connects; repeatable")
+                    "Two links that may touch (links connected by a joint always may); repeatable")
         .takes("LINK,LINK")
         .one_value_each();
   }

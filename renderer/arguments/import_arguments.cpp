@@ -16,7 +16,8 @@ void add_other_files(const Verb& verb, ImportOptions& options) {
   // reported.
   verb.add_option("others", options.others,
                   "More files for the same scene\n"
-                  "Camera and lights: of the first scene file; joint values: of the first file")
+                  "Camera and lights come from the first scene file (not a robot's)\n"
+                  "--joint, --joints and --keyframe apply to SCENE only")
       .reads_file();
 }
 
@@ -51,7 +52,8 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
           [&options](const std::string& name) {
             options.meshes = name == "exact" ? MeshChoice::exact : MeshChoice::hull;
           },
-          "Robot meshes (default exact; hull with --split, or for contact in MJCF):\n"
+          "Robot meshes (default: exact, but hull if --split is given, and hull for contact in "
+          "MJCF):\n"
           "exact: triangles\nhull: convex hulls")
       .one_of({"hull", "exact"})
       .group(group);
@@ -59,13 +61,14 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
       .takes("NAME")
       .group(group);
   verb.add_option("--joint", options.joints,
-                  "Joint value (rad or length; ball, free: comma-separated); repeatable")
+                  "Joint value (rad or length; several, comma-separated, for ball and free "
+                  "joints); repeatable")
       .takes("NAME=VALUE")
       .one_value_each()
       .group(group);
   if (rows)
     verb.add_option("--joints", options.joint_rows,
-                    "Joint values: CSV (names, then values) or JSON rows with \"time\" (s)\n"
+                    "Joint values: CSV (names, then values) or JSON rows; optional \"time\" (s)\n"
                     "Several rows animate the robot; without times: 24 rows per second")
         .reads_file()
         .group(group);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Subcommands of the command line, each in its own verb_*.cpp. This is the only list of them, with
-// the program of each. The program for pictures contains nothing else, to compile fast
-// (docs/decisions/build.md), and runs the others, which are in the same folder.
+// the program of each. The program `minkray` contains few of them, so that it compiles fast
+// (docs/decisions/build.md); for the others it runs a program in the same folder.
 #pragma once
 
 #include <span>

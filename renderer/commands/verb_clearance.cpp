@@ -152,7 +152,7 @@ void add_clearance(Parser& parser, ExitCode& exit_code) {
   verb.add_flag("--only-obstacles", options->only_obstacles,
                 "Check obstacles only, not self-collision");
   verb.add_option("--tolerance", options->clearance.tolerance,
-                  "Largest gap between the bounds, relative to the clearance")
+                  "Largest gap between the bounds of the clearance, relative to it")
       .between(1e-9, 1.0)
       .show_default();
   verb.add_option("--at-least", options->at_least,

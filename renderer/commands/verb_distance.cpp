@@ -284,14 +284,14 @@ void add_distance(Parser& parser, ExitCode&) {
   const auto options = std::make_shared<DistanceVerbOptions>();
   options->command_files = &verb.files();
   verb.add_option("files", options->files,
-                  "Two files with one shape each; or a robot or scene, then other files to measure "
-                  "against. Each file: " +
+                  "Two shapes (JSON); or a scene or robot, alone or with other files to measure "
+                  "against. Scene or robot: " +
                       scene_argument())
       .required()
       .reads_file();
   add_tolerance(verb, options->tolerance);
   verb.add_option("--within", options->within,
-                  "Omit pairs that are proven to be further apart (>= 0)");
+                  "Omit pairs that are proven to be further apart than this (>= 0)");
   verb.add_flag("--only-obstacles", options->only_obstacles,
                 "Check obstacles only, not self-collision");
   options->allowed.add_options(verb);

@@ -172,7 +172,9 @@ void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
       .group(heading)
       .reads_file();
   verb.add_option("--pattern", options.pattern,
-                  "spinning:CHANNELSxSTEPS[:LOWEST,HIGHEST[:FROM,TO]] (degrees); " + models +
+                  "spinning:CHANNELSxSTEPS[:LOWEST,HIGHEST[:FROM,TO]] (elevations, azimuths in "
+                  "degrees); or a lidar: " +
+                      models +
                       "; or a file: .csv (time, azimuth, zenith), .json (elevations), .mat3x4f")
       .group(heading)
       .reads_file()
@@ -218,7 +220,8 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .takes("N")
       .show_default();
   verb.add_option("--returns", options.scan.returns,
-                  "Echoes per ray: bodies along it; with --divergence, hits of one beam")
+                  "Echoes per ray: one for each body it enters; with --divergence, one for each "
+                  "distinct hit of its beam")
       .group(heading)
       .between(1, 64)
       .show_default();

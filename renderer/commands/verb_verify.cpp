@@ -266,7 +266,8 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
   verb.add_option("--group", inputs.group,
                   "SRDF group whose joints are the columns of an .npy file")
       .takes("NAME");
-  verb.add_option("--padding", inputs.cell.padding, "Distance that links keep from obstacles (m)")
+  verb.add_option("--padding", inputs.cell.padding,
+                  "Distance that links must keep from obstacles (m)")
       .between(0.0, 1e6)
       .show_default();
   verb.add_option("--inflate", inputs.inflate,
@@ -276,11 +277,12 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
   verb.add_flag("--only-obstacles", inputs.cell.only_obstacles,
                 "Check obstacles only, not self-collision");
   verb.add_option("--tolerance", options->referee.tolerance,
-                  "Largest gap between the bounds, relative to the least clearance")
+                  "Largest gap between the bounds of the least clearance, relative to it")
       .between(1e-9, 1.0)
       .show_default();
   verb.add_option("--budget", options->budget,
-                  "Distance queries per pair and step (row to row) before `undecided`")
+                  "Most distance queries for a pair of bodies in one step (from a row of the plan "
+                  "to the next); if more are needed: `undecided`")
       .between(std::size_t{1}, std::size_t{1'000'000'000})
       .show_default();
   verb.add_flag("--serve", options->serve,

@@ -69,16 +69,18 @@ void RenderArguments::add_to(const Verb& verb) {
           [this](const std::string& name) {
             build = name == "speed" ? BvhBuild::speed : BvhBuild::quality;
           },
-          "BVH build, for faster rays or for a faster build")
+          "How to build the BVH (default quality):\nquality: for faster rays\n"
+          "speed: for a faster build")
       .one_of({"quality", "speed"})
       .group(research_group);
   std::string channels;
   for (const DataChannelDescription& channel : data_channels)
     channels += "\n" + std::string(channel.name) + ": " + std::string(channel.doc);
-  verb.add_option(
-          "--aov", aov,
-          "AOVs (extra EXR channels), comma-separated, or all; one unfiltered ray per pixel:" +
-              channels)
+  verb.add_option("--aov", aov,
+                  "Extra EXR channels (AOVs), comma-separated, or all\n"
+                  "direct, indirect, variance and cryptomatte use all samples, the others one "
+                  "unfiltered ray per pixel:" +
+                      channels)
       .takes("NAMES");
   verb.add_option("--tile", tile, "Render tile I of N, for minkray merge")
       .takes("I/N")
@@ -106,7 +108,7 @@ void RenderArguments::add_to(const Verb& verb) {
   verb.add_option("--rate", rate, "Frames per second (fps)").between(1e-6, 1e6).show_default();
   verb.add_option("--contact-sheet", contact_sheet, "Picture with thumbnails of all --frames")
       .writes_file();
-  verb.add_flag("--stats", stats, "Print rays, speed, work and memory; --stats=json")
+  verb.add_flag("--stats", stats, "Print rays, speed, work and memory; as JSON: --stats=json")
       .group(research_group);
   verb.add_flag("--certify", certify, "Prove every ray's result; exit with 1 if a proof fails")
       .group(research_group);
