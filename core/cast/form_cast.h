@@ -28,14 +28,6 @@ class FormPlace {
   const Mat3<double>* to_inner_;
 };
 
-/// The centre of a plain placement, rounded: see ShapeDefinition::plain_centre.
-inline Vec3<double> rounded_plain_centre(const Vec3<double>& translation,
-                                         const Mat3<double>& to_inner,
-                                         const Vec3<double>& ball_centre) {
-  if (ball_centre.isZero(0)) return translation;
-  return translation + times<double, double>(to_inner.transpose(), ball_centre);
-}
-
 /// Finds where the ray enters the shape, by its closed form: false if that is in doubt, or there is
 /// none. The same bits as cast_ray.
 bool cast_by_form(const FormPlace& place, const Ray<double>& ray, CastResult<double>& result);

@@ -163,7 +163,9 @@ class Instances {
     const bool has_map = body.is_turned || !body.is_centred;
     if (has_map) map = to_inner(i);
     return {*body.definition,
-            body.is_plain && has_map ? rounded_plain_centre(origin, map, body.centre) : origin,
+            body.is_plain && has_map ? ShapeDefinition<double>::rounded_plain_centre(
+                                           {map.transpose(), origin}, body.centre)
+                                     : origin,
             body.is_turned ? &map : nullptr};
   }
   /// For a ray as the instance sees it: allows for what `seen_by` has rounded.
