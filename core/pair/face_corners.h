@@ -36,7 +36,7 @@ inline void sort_round(std::vector<FaceCorner>& corners) {
   std::ranges::sort(corners, {}, &FaceCorner::angle);
 }
 
-/// How far corners may be off the plane: in sizes, their rounding.
+/// Distance of a face's corners from its plane by their rounding, in sizes.
 inline constexpr double flat_face = 1e-12;
 
 }  // namespace minkray

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes the bodies of a committed scene: scaled shapes and meshes keep their scale, robots' meshes
-// touch as their files say.
+// Makes the bodies of a committed scene: scales become part of shapes and meshes, and robots'
+// meshes touch as their files prescribe.
 #include <limits>
 #include <memory>
 #include <unordered_map>
