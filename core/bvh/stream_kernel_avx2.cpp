@@ -4,6 +4,7 @@
 // Kernels for Modern CPU Architectures", 2015. Everything here has internal linkage or the type of
 // the lanes in its name: see core/math/wide.h.
 #include "core/bvh/slab_test.h"
+#include "core/bvh/sorted_lanes.h"
 #include "core/bvh/stream.h"
 
 #if defined(__AVX2__)
@@ -30,28 +31,6 @@ struct Turn {
   float enter[stack_size];
   std::uint32_t node[stack_size];
 };
-
-/// For each set of lanes, their numbers from the lowest up.
-struct LanesOfSet {
-  std::uint64_t lanes[256] = {};
-  constexpr LanesOfSet() {
-    for (std::uint32_t set = 0; set < 256; ++set)
-      for (std::uint32_t lane = 0, count = 0; lane < 8; ++lane)
-        if (set >> lane & 1) lanes[set] |= static_cast<std::uint64_t>(lane) << (8 * count++);
-  }
-};
-constexpr LanesOfSet lanes_of_set;
-
-__m256i lanes_of(std::uint32_t set) {
-  return _mm256_cvtepu8_epi32(
-      _mm_cvtsi64_si128(static_cast<std::int64_t>(lanes_of_set.lanes[set])));
-}
-
-template <int upper_lanes>
-__m256i compared(__m256i keys, __m256i others) {
-  return _mm256_blend_epi32(_mm256_min_epi32(keys, others), _mm256_max_epi32(keys, others),
-                            upper_lanes);
-}
 
 void store(std::uint32_t* to, __m256i lanes) {
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), lanes);
@@ -163,18 +142,7 @@ template <std::uint32_t count>
     store(pair_rays + pairs, _mm256_set1_epi32(static_cast<int>(at.turn[k]->ray)));
     pairs += static_cast<std::uint32_t>(__builtin_popcount(at.boxes[k]));
   }
-#define MINKRAY_LAYER(upper, shuffled)                                \
-  _Pragma("GCC unroll 8") for (std::uint32_t k = 0; k < count; ++k) { \
-    const __m256i keys = at.keys[k];                                  \
-    at.keys[k] = compared<upper>(keys, shuffled);                     \
-  }
-  MINKRAY_LAYER(0x55, _mm256_shuffle_epi32(keys, 0xB1))
-  MINKRAY_LAYER(0x33, _mm256_shuffle_epi32(keys, 0x1B))
-  MINKRAY_LAYER(0x55, _mm256_shuffle_epi32(keys, 0xB1))
-  MINKRAY_LAYER(0x0F, _mm256_permutevar8x32_epi32(keys, _mm256_setr_epi32(7, 6, 5, 4, 3, 2, 1, 0)))
-  MINKRAY_LAYER(0x33, _mm256_shuffle_epi32(keys, 0x4E))
-  MINKRAY_LAYER(0x55, _mm256_shuffle_epi32(keys, 0xB1))
-#undef MINKRAY_LAYER
+  sort_keys(at.keys);
 #pragma GCC unroll 8
   for (std::uint32_t k = 0; k < count; ++k) {
     Turn& turn = *at.turn[k];

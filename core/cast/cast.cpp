@@ -16,33 +16,14 @@ bool asks_filter(const PreparedShape<T>& shape, const CastOptions<T>& options) {
          shape.definition().form().kind != FormKind::none;
 }
 
-template <class T>
-bool is_certain(const Filtered<T>& answer) {
-  return answer.hit || answer.miss || answer.inside;
-}
-
+/// A miss has no parameter.
 template <class T>
 CastResult<T> result_of(const Filtered<T>& answer) {
-  const Status status = answer.hit ? Status::hit : answer.miss ? Status::miss : Status::inside;
-  if (status == Status::miss)
-    return {status,
-            Path::filter,
-            T(0),
-            T(0),
-            T(0),
-            T(0),
-            {answer.normal.x(), answer.normal.y(), answer.normal.z()},
-            0,
-            0};
-  return {status,
-          Path::filter,
-          answer.t_base,
-          answer.t_offset,
-          answer.offset_lo,
-          answer.offset_hi,
-          {answer.normal.x(), answer.normal.y(), answer.normal.z()},
-          0,
-          0};
+  CastResult<T> result;
+  write_result(answer, result);
+  if (result.status == Status::miss)
+    result.t_base = result.t_offset = result.offset_lo = result.offset_hi = T(0);
+  return result;
 }
 
 }  // namespace
@@ -52,7 +33,7 @@ CastResult<T> cast_ray(const PreparedShape<T>& shape, const Ray<T>& ray,
                        const CastOptions<T>& options, const CastObserver<T>& observer) {
   if (asks_filter(shape, options) && !observer) {
     const Filtered<T> answer = filter<false>(shape, ray, true);
-    if (is_certain(answer)) return result_of(answer);
+    if (answer.is_certain()) return result_of(answer);
   }
   return cast_by_later_stages(shape, ray, options, observer);
 }
@@ -63,10 +44,9 @@ CastResult<double> cast_ray(const ShapeDefinition<double>& definition, const Aff
     const Mat3<double> to_inner = pose.linear.transpose();
     CastResult<double> result;
     const bool is_turned = !definition.is_round() && pose.linear != Mat3<double>::Identity();
-    const FormPlace place(
-        definition,
-        rounded_plain_centre(pose.translation, to_inner, definition.inner_ball().centre),
-        is_turned ? &to_inner : nullptr);
+    const FormPlace place(definition,
+                          definition.rounded_plain_centre(pose, definition.inner_ball().centre),
+                          is_turned ? &to_inner : nullptr);
     if (cast_by_form(place, ray, result)) return result;
   }
   return cast_ray(PreparedShape<double>(definition, definition.placed(pose)), ray);
@@ -78,7 +58,7 @@ CastResult<T> cast_exit(const PreparedShape<T>& shape, const Ray<T>& ray,
   const auto answer = [&] {
     if (asks_filter(shape, options)) {
       const Filtered<T> filtered = filter<true>(shape, ray, true);
-      if (is_certain(filtered)) return result_of(filtered);
+      if (filtered.is_certain()) return result_of(filtered);
     }
     return exit_by_later_stages(shape, ray, options);
   };

@@ -19,7 +19,21 @@ struct Filtered {
   Mask<Work<F>> hit, inside, miss;
   F t_base, t_offset, offset_lo, offset_hi;
   Vec3<F> normal;
+
+  Mask<Work<F>> is_certain() const { return hit | miss | inside; }
 };
+
+/// Writes the result of a single ray, which must be certain.
+template <class T>
+[[gnu::always_inline]] inline void write_result(const Filtered<T>& answer, CastResult<T>& result) {
+  result.status = answer.hit ? Status::hit : answer.miss ? Status::miss : Status::inside;
+  result.path = Path::filter;
+  result.t_base = answer.t_base;
+  result.t_offset = answer.t_offset;
+  result.offset_lo = answer.offset_lo;
+  result.offset_hi = answer.offset_hi;
+  result.normal = answer.normal;
+}
 
 /// Normalises a form's normal, whose length is neither tiny nor huge, without rescaling.
 template <class W>

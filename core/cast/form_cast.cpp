@@ -16,14 +16,8 @@ template <class Place>
 [[gnu::always_inline]] inline bool cast_here(const Place& place, const Ray<double>& ray,
                                              CastResult<double>& result) {
   const Filtered<double> answer = filter<false>(place, ray, true);
-  result.status = answer.hit ? Status::hit : answer.miss ? Status::miss : Status::inside;
-  result.path = Path::filter;
-  result.t_base = answer.t_base;
-  result.t_offset = answer.t_offset;
-  result.offset_lo = answer.offset_lo;
-  result.offset_hi = answer.offset_hi;
-  result.normal = answer.normal;
-  return answer.hit || answer.miss || answer.inside;
+  write_result(answer, result);
+  return answer.is_certain();
 }
 
 #if defined(__x86_64__)

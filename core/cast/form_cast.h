@@ -29,15 +29,6 @@ class FormPlace {
   const Mat3<double>* to_inner_;
 };
 
-/// Returns the bounding ball's centre under a pose that keeps lengths (no outer map), rounded to
-/// double; ShapeDefinition::plain_centre has twice the digits.
-inline Vec3<double> rounded_plain_centre(const Vec3<double>& translation,
-                                         const Mat3<double>& to_inner,
-                                         const Vec3<double>& ball_centre) {
-  if (ball_centre.isZero(0)) return translation;
-  return translation + times<double, double>(to_inner.transpose(), ball_centre);
-}
-
 /// Casts the ray by the shape's closed form. Returns false, with no valid result, if the filter is
 /// in doubt or the shape has no closed form. Results are bit-identical to cast_ray's.
 bool cast_by_form(const FormPlace& place, const Ray<double>& ray, CastResult<double>& result);

@@ -26,4 +26,26 @@ template <class W, class S>
   return entry;
 }
 
+/// Enters the ball at an end of a shape, where `by_end`: `p` is the line's point, seen from the
+/// ball's centre. Returns where the line misses it.
+template <class W>
+[[gnu::always_inline]] inline Mask<W> enter_end(Entry<W>& entry, const Mask<W>& by_end, const W& r,
+                                                const Vec3<W>& p, const Line<W>& line) {
+  using std::max;
+  using std::sqrt;
+  const Vec3<W>& d = line.d;
+  const W k = -p.dot(d) * line.inv;
+  const Vec3<W> x = p + d * k;
+  const W h2 = r * r - x.squaredNorm(), margin = W(tolerance::form_tangent) * r * line.E;
+  const Mask<W> hit = by_end & (h2 > margin), miss = by_end & (h2 < -margin);
+  const W half = sqrt(max(h2, margin) * line.inv);
+  entry.hit |= hit;
+  entry.miss |= miss;
+  entry.t = select(hit, W(k - half), entry.t);
+  entry.e = select(hit, W(W(2) * r * line.E * line.inv / half), entry.e);
+  const Vec3<W> outward = select<W>(hit, Vec3<W>((x - d * half) * (W(1) / r)), x);
+  entry.normal = select<W>(hit | miss, outward, entry.normal);
+  return miss;
+}
+
 }  // namespace minkray::exact

@@ -3,6 +3,7 @@
 // infinite mantle beyond an end, on the ball at that end.
 #pragma once
 
+#include "core/exact/ball.h"
 #include "core/exact/mantle.h"
 
 namespace minkray::exact {
@@ -12,8 +13,6 @@ template <class W, class S>
                                                      const Line<W>& line, const Mask<W>& open) {
   using std::abs;
   using std::copysign;
-  using std::max;
-  using std::sqrt;
   const W r(radius);
   const Vec3<W>&s = line.s, &d = line.d;
   Entry<W> entry;
@@ -36,17 +35,7 @@ template <class W, class S>
   const Mask<W> by_end = round.hit & !by_side & !unsure;
   if (any(by_end)) {
     const Vec3<W> p(s.x(), s.y(), s.z() - copysign(W(half_height), z));
-    const W k = -p.dot(d) * line.inv;
-    const Vec3<W> x = p + d * k;
-    const W h2 = r * r - x.squaredNorm(), margin = W(tolerance::form_tangent) * r * line.E;
-    const Mask<W> hit = by_end & (h2 > margin), miss = by_end & (h2 < -margin);
-    const W half = sqrt(max(h2, margin) * line.inv);
-    entry.hit |= hit;
-    entry.miss |= miss;
-    entry.t = select(hit, W(k - half), entry.t);
-    entry.e = select(hit, W(W(2) * r * line.E * line.inv / half), entry.e);
-    const Vec3<W> outward = select<W>(hit, Vec3<W>((x - d * half) * (W(1) / r)), x);
-    entry.normal = select<W>(hit | miss, outward, entry.normal);
+    enter_end(entry, by_end, r, p, line);
   }
   entry.hit &= !unsure;
   return entry;

@@ -15,8 +15,6 @@ template <class W, class S>
                                                              const S& sine, const S& apex,
                                                              const S& R, const Line<W>& line,
                                                              const Mask<W>& open) {
-  using std::max;
-  using std::sqrt;
   const Vec3<W>&s = line.s, &d = line.d;
   Entry<W> entry;
   const Nappe<W> round(slope, apex, R, line, open);
@@ -44,18 +42,7 @@ template <class W, class S>
     const W r = select(above, W(upper), W(lower));
     const W middle = select(above, W(half_height), W(-half_height));
     const Vec3<W> p(s.x(), s.y(), s.z() - middle);
-    const W k = -p.dot(d) * line.inv;
-    const Vec3<W> x = p + d * k;
-    const W h2 = r * r - x.squaredNorm(), margin = W(tolerance::form_tangent) * r * line.E;
-    const Mask<W> hit = by_end & (h2 > margin), miss = by_end & (h2 < -margin);
-    const W half = sqrt(max(h2, margin) * line.inv);
-    entry.hit |= hit;
-    entry.miss |= miss;
-    entry.t = select(hit, W(k - half), entry.t);
-    entry.e = select(hit, W(W(2) * r * line.E * line.inv / half), entry.e);
-    const Vec3<W> outward = select<W>(hit, Vec3<W>((x - d * half) * (W(1) / r)), x);
-    entry.normal = select<W>(hit | miss, outward, entry.normal);
-    const Mask<W> passes = miss & round.is_above(apex, line);
+    const Mask<W> passes = enter_end(entry, by_end, r, p, line) & round.is_above(apex, line);
     if (any(passes)) entry.normal = select<W>(passes, round.separating(line), entry.normal);
   }
   entry.hit &= !unsure;

@@ -5,6 +5,7 @@
 #include "core/mesh/mesh_walk.h"
 
 #if defined(__AVX2__)
+#include "core/bvh/sorted_lanes.h"
 #include "core/mesh/triangle_lanes.h"
 
 namespace minkray {
@@ -57,12 +58,6 @@ bool next_of(Turn& turn) {
     turn.what = turn.waiting[--turn.top];
     return true;
   }
-}
-
-template <int upper_lanes>
-__m256i in_order(__m256i keys, __m256i others) {
-  return _mm256_blend_epi32(_mm256_min_epi32(keys, others), _mm256_max_epi32(keys, others),
-                            upper_lanes);
 }
 
 /// Pushes the children in the nodes of several turns on their stacks, phase by phase.
@@ -118,18 +113,7 @@ template <std::uint32_t count>
                         lane_numbers),
         is_missed);
   }
-#define MINKRAY_LAYER(upper, shuffled)                                \
-  _Pragma("GCC unroll 8") for (std::uint32_t k = 0; k < count; ++k) { \
-    const __m256i of = keys[k];                                       \
-    keys[k] = in_order<upper>(of, shuffled);                          \
-  }
-  MINKRAY_LAYER(0x55, _mm256_shuffle_epi32(of, 0xB1))
-  MINKRAY_LAYER(0x33, _mm256_shuffle_epi32(of, 0x1B))
-  MINKRAY_LAYER(0x55, _mm256_shuffle_epi32(of, 0xB1))
-  MINKRAY_LAYER(0x0F, _mm256_permutevar8x32_epi32(of, _mm256_setr_epi32(7, 6, 5, 4, 3, 2, 1, 0)))
-  MINKRAY_LAYER(0x33, _mm256_shuffle_epi32(of, 0x4E))
-  MINKRAY_LAYER(0x55, _mm256_shuffle_epi32(of, 0xB1))
-#undef MINKRAY_LAYER
+  sort_keys(keys);
 #pragma GCC unroll 8
   for (std::uint32_t k = 0; k < count; ++k) {
     Turn& to = *turn[k];

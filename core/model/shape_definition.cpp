@@ -186,8 +186,8 @@ Bounds<T> ShapeDefinition<T>::bounds_of(const Affine<T>& pose) const {
 
 template <class T>
 TwoFoldVec3<T> ShapeDefinition<T>::plain_centre(const Affine<T>& pose, const Vec3<T>& ball_centre) {
-  if (ball_centre.isZero(T(0))) return TwoFoldVec3<T>(pose.translation);
-  const Vec3<T> rounded = pose.translation + times<T, T>(pose.linear, ball_centre);
+  const Vec3<T> rounded = rounded_plain_centre(pose, ball_centre);
+  if (ball_centre.isZero(T(0))) return TwoFoldVec3<T>(rounded);
   const TwoFoldVec3<T> exact = image_of(pose, TwoFoldVec3<T>(ball_centre));
   return {rounded, (exact - TwoFoldVec3<T>(rounded)).rounded()};
 }

@@ -81,6 +81,10 @@ class ShapeDefinition {
 
   /// The ball's centre under a plain pose; its rounded part is what lanes compute.
   static TwoFoldVec3<T> plain_centre(const Affine<T>& pose, const Vec3<T>& ball_centre);
+  static Vec3<T> rounded_plain_centre(const Affine<T>& pose, const Vec3<T>& ball_centre) {
+    if (ball_centre.isZero(T(0))) return pose.translation;
+    return pose.translation + times<T, T>(pose.linear, ball_centre);
+  }
   /// Loss of plain placements that are rotated.
   T plain_loss() const { return plain_loss_; }
 

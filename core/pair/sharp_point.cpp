@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "core/pair/sharp_point.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
+
+#include "core/pair/face_corners.h"
 
 namespace minkray {
 namespace {
@@ -25,11 +26,10 @@ bool is_sharp_at_disks(const ShapeCore& core, const Vec3<double>& point, double 
 }
 
 /// True if the viewpoint of the three corners is outside of their triangle or on its rim.
-template <class Corner>
-bool is_on_rim(const Corner* corners, double near) {
+bool is_on_rim(const std::vector<FaceCorner>& corners, double near) {
   int left = 0, right = 0;
-  for (int i = 0; i < 3; ++i) {
-    const Corner &a = corners[i], &b = corners[(i + 1) % 3];
+  for (std::size_t i = 0; i < 3; ++i) {
+    const FaceCorner &a = corners[i], &b = corners[(i + 1) % 3];
     const double x = b.x - a.x, y = b.y - a.y;
     const double height = (a.x * b.y - a.y * b.x) / std::sqrt(x * x + y * y);
     left += height > near ? 1 : 0;
@@ -42,27 +42,16 @@ bool is_on_rim(const Corner* corners, double near) {
 /// its rim.
 bool is_sharp_at_hull(const ShapeCore& core, const Vec3<double>& point, const Vec3<double>& n,
                       double off) {
-  constexpr double flat = 1e-12;  // in sizes: faces' corners lie in a plane but for their rounding
-  const double near = off + flat * core.ball;
-  const Vec3<double> u = n.unitOrthogonal(), v = n.cross(u);
-  struct Corner {
-    double angle, x, y;
-  };
-  thread_local std::vector<Corner> corners;
-  corners.clear();
-  for (int i = 0; i < core.count; ++i) {
-    const Vec3<double> to = Vec3<double>(core.x[i], core.y[i], core.z[i]) - point;
-    if (std::abs(n.dot(to)) > near) continue;
-    const double x = u.dot(to), y = v.dot(to);
-    if (x * x + y * y <= near * near) return true;
-    corners.push_back({0, x, y});
-  }
+  const double near = off + flat_face * core.ball;
+  std::vector<FaceCorner>& corners =
+      face_corners(core, point, n, [&](double height) { return std::abs(height) <= near; });
+  for (const FaceCorner& corner : corners)
+    if (corner.x * corner.x + corner.y * corner.y <= near * near) return true;
   if (corners.size() < 3) return true;
-  if (corners.size() == 3) return is_on_rim(corners.data(), near);
-  for (Corner& corner : corners) corner.angle = std::atan2(corner.y, corner.x);
-  std::ranges::sort(corners, {}, &Corner::angle);
+  if (corners.size() == 3) return is_on_rim(corners, near);
+  sort_round(corners);
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Corner &a = corners[i], &b = corners[i + 1 < corners.size() ? i + 1 : 0];
+    const FaceCorner &a = corners[i], &b = corners[i + 1 < corners.size() ? i + 1 : 0];
     const double angle = b.angle - a.angle + (i + 1 < corners.size() ? 0 : 2 * std::numbers::pi);
     if (angle >= std::numbers::pi) return true;
     if (a.x * b.y - a.y * b.x <= near * std::hypot(b.x - a.x, b.y - a.y) &&

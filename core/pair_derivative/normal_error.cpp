@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/pair/face_corners.h"
 #include "core/pair/flat_part.h"
 
 namespace minkray {
@@ -33,30 +34,20 @@ double by_support(const ShapeCore& core, const Vec3<double>& foot, const Vec3<do
 /// Uses that no corner of the face under `foot` is above the plane across the true normal. That
 /// plane goes through a point of the hull no further than `off` from `foot`.
 double on_face(const ShapeCore& core, const Vec3<double>& foot, const Vec3<double>& n, double off) {
-  constexpr double flat = 1e-12;  // in sizes: faces' corners lie in a plane but for their rounding
-  const double near = off + flat * core.ball;
-  const Vec3<double> u = n.unitOrthogonal(), v = n.cross(u);
-  struct Corner {
-    double angle, x, y;
-  };
-  thread_local std::vector<Corner> corners;
-  corners.clear();
+  const double near = off + flat_face * core.ball;
   double lowest = infinity, highest = -infinity;
-  for (int i = 0; i < core.count; ++i) {
-    const Vec3<double> to = Vec3<double>(core.x[i], core.y[i], core.z[i]) - foot;
-    const double height = n.dot(to);
+  std::vector<FaceCorner>& corners = face_corners(core, foot, n, [&](double height) {
     highest = std::max(highest, height);
-    if (height < -near) continue;
+    if (height < -near) return false;
     lowest = std::min(lowest, height);
-    const double x = u.dot(to), y = v.dot(to);
-    corners.push_back({std::atan2(y, x), x, y});
-  }
+    return true;
+  });
   if (corners.size() < 3) return infinity;
-  std::ranges::sort(corners, {}, &Corner::angle);
+  sort_round(corners);
   // The polygon of the corners in this order is part of the face.
   double inner = infinity;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Corner &a = corners[i], &b = corners[i + 1 < corners.size() ? i + 1 : 0];
+    const FaceCorner &a = corners[i], &b = corners[i + 1 < corners.size() ? i + 1 : 0];
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     // Copies fill a hull's points up.
     if (length > 0) inner = std::min(inner, (a.x * b.y - a.y * b.x) / length);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/bvh/bvh.h"
+#include "core/bvh/sorted_lanes.h"
 #include "core/screen/form_in_lanes.h"
 #include "core/world/ray_block.h"
 
@@ -181,22 +182,6 @@ bool make_block(const char* rays, std::size_t stride, std::size_t count, Block& 
   const __m256 padded = _mm256_add_ps(_mm256_mul_ps(leave, _mm256_set1_ps(block_padding)),
                                       _mm256_set1_ps(std::numeric_limits<float>::min()));
   return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(enter, padded, _CMP_LE_OQ)));
-}
-
-/// For each set of lanes, their indices in ascending order.
-struct LanesOfSet {
-  std::uint64_t lanes[256] = {};
-  constexpr LanesOfSet() {
-    for (std::uint32_t set = 0; set < 256; ++set)
-      for (std::uint32_t lane = 0, count = 0; lane < 8; ++lane)
-        if (set >> lane & 1) lanes[set] |= static_cast<std::uint64_t>(lane) << (8 * count++);
-  }
-};
-constexpr LanesOfSet lanes_of_set;
-
-__m256i lanes_of(std::uint32_t set) {
-  return _mm256_cvtepu8_epi32(
-      _mm_cvtsi64_si128(static_cast<std::int64_t>(lanes_of_set.lanes[set])));
 }
 
 }  // namespace

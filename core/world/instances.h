@@ -164,7 +164,9 @@ class Instances {
     const bool has_map = body.is_turned || !body.is_centred;
     if (has_map) map = to_inner(i);
     return {*body.definition,
-            body.is_plain && has_map ? rounded_plain_centre(origin, map, body.centre) : origin,
+            body.is_plain && has_map ? ShapeDefinition<double>::rounded_plain_centre(
+                                           {map.transpose(), origin}, body.centre)
+                                     : origin,
             body.is_turned ? &map : nullptr};
   }
   /// Same as at(), for a ray returned by seen_by(): includes the rounding of seen_by().

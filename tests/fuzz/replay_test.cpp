@@ -6,8 +6,8 @@
 #include <fstream>
 #include <string>
 
+#include "tests/fuzz/inputs.h"
 #include "tests/fuzz/target.h"
-#include "tests/support/source_files.h"
 
 namespace minkray::fuzz {
 namespace {
@@ -24,14 +24,12 @@ class Replay : public ::testing::TestWithParam<Target> {};
 TEST_P(Replay, kept_inputs_keep_every_promise) {
   int count = 0;
   for (const char* kind : {"corpus", "findings"}) {
-    const std::string folder = "tests/fuzz/" + std::string(kind) + "/" + GetParam().name;
-    if (!std::filesystem::is_directory(source_folder() / folder)) continue;
-    for (const SourceFile& file : files_in(folder)) {
-      EXPECT_EQ(GetParam().check(file.text), "") << file.name;
+    for (const SourceFile& input : kept_inputs(GetParam().name, kind)) {
+      EXPECT_EQ(GetParam().check(input.text), "") << input.name;
       ++count;
     }
   }
-  EXPECT_GT(count, 3) << "inputs in tests/fuzz/corpus/" << GetParam().name;
+  EXPECT_GT(count, 3) << "inputs in tests/fuzz/inputs/" << GetParam().name << ".json";
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -13,7 +13,6 @@
 #include "renderer/import/mesh/gltf.h"
 #include "renderer/import/mesh/msh.h"
 #include "renderer/import/model/mesh_surface.h"
-#include "renderer/import/model/xml.h"
 #include "renderer/json/mistakes.h"
 
 namespace minkray {
@@ -63,107 +62,6 @@ const std::vector<MeshFormatReader>& mesh_formats() {
       {".dae", read_collada}, {".gltf", read_gltf_content},    {".glb", read_gltf_content},
   };
   return formats;
-}
-
-namespace {
-
-/// Largest number of folders to search; a folder has few packages.
-constexpr std::size_t most_folders_looked_at = 1000;
-
-/// The name in a folder's package.xml; empty if there is none.
-std::string package_name(const std::filesystem::path& folder) {
-  std::error_code error;
-  const std::filesystem::path file = folder / "package.xml";
-  if (!std::filesystem::is_regular_file(file, error)) return "";
-  Mistakes ignored("");
-  XmlFiles files(ignored);
-  const auto root = files.read(file);
-  const XmlElement* name = root && root->name == "package" ? root->child("name") : nullptr;
-  if (!name) return "";
-  const std::size_t begin = name->text.find_first_not_of(" \t\r\n");
-  if (begin == name->text.npos) return "";
-  return name->text.substr(begin, name->text.find_last_not_of(" \t\r\n") - begin + 1);
-}
-
-}  // namespace
-
-/// Those of the folders, and of the folders in them, whose package.xml gives the name.
-std::vector<std::filesystem::path> MeshLibrary::folders_of_package(
-    const std::string& package, const std::vector<std::filesystem::path>& folders) const {
-  const auto known = packages_.find(package);
-  if (known != packages_.end()) return known->second;
-  std::vector<std::filesystem::path> found;
-  for (const std::filesystem::path& folder : folders) {
-    if (package_name(folder) == package) found.push_back(folder);
-    std::error_code error;
-    std::size_t count = 0;
-    for (std::filesystem::directory_iterator at(folder, error), end;
-         !error && at != end && count < most_folders_looked_at; at.increment(error), ++count)
-      if (std::error_code ignored; at->is_directory(ignored) && package_name(at->path()) == package)
-        found.push_back(at->path());
-  }
-  return packages_[package] = found;
-}
-
-std::string list_of_places(const std::vector<std::filesystem::path>& places) {
-  constexpr std::size_t longest = 360;
-  std::string text;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const std::string place = printable(places[i].string(), 160);
-    if (text.size() + place.size() > longest)
-      return text + " and " + std::to_string(places.size() - i) + " more places";
-    text += (i > 0 ? ", " : "") + place;
-  }
-  return text;
-}
-
-std::optional<std::filesystem::path> MeshLibrary::find(
-    const std::string& uri, std::vector<std::filesystem::path>& looked_for) const {
-  const auto look_at = [&](const std::filesystem::path& place) {
-    const std::filesystem::path normal = place.lexically_normal();
-    if (std::ranges::find(looked_for, normal) == looked_for.end()) looked_for.push_back(normal);
-  };
-  const auto begins = [&](std::string_view scheme) { return uri.starts_with(scheme); };
-  if (begins("package://") || begins("model://")) {
-    const std::string rest = uri.substr(uri.find("://") + 3);
-    const std::string in_package = rest.substr(std::min(rest.find('/') + 1, rest.size()));
-    for (const std::string& folder : options_->package_dirs) {
-      look_at(std::filesystem::path(folder) / rest);
-      look_at(std::filesystem::path(folder) / in_package);
-      look_at(std::filesystem::path(folder) / std::filesystem::path(rest).filename());
-    }
-    // Packages are in a folder of their name, next to the file or above it, or in one whose
-    // package.xml gives them the name.
-    const std::string package = rest.substr(0, rest.find('/'));
-    std::filesystem::path folder =
-        std::filesystem::absolute(folder_.empty() ? "." : folder_).lexically_normal();
-    std::vector<std::filesystem::path> around;
-    for (int i = 0; i < 8; ++i) {
-      around.push_back(folder);
-      look_at(folder / rest);
-      if (begins("model://")) look_at(folder / "models" / rest);
-      if (folder == folder.parent_path()) break;
-      folder = folder.parent_path();
-    }
-    if (begins("package://")) {
-      around.insert(around.begin(), options_->package_dirs.begin(), options_->package_dirs.end());
-      for (const std::filesystem::path& named : folders_of_package(package, around))
-        look_at(named / in_package);
-    }
-  } else if (begins("file://")) {
-    look_at(uri.substr(std::string_view("file://").size()));
-    look_at(folder_ / uri.substr(std::string_view("file://").size()));
-  } else {
-    look_at(folder_ / uri);
-    for (const std::string& folder : options_->package_dirs) {
-      look_at(std::filesystem::path(folder) / uri);
-      look_at(std::filesystem::path(folder) / std::filesystem::path(uri).filename());
-    }
-  }
-  std::error_code error;
-  for (const std::filesystem::path& place : looked_for)
-    if (std::filesystem::is_regular_file(place, error)) return place;
-  return std::nullopt;
 }
 
 const MeshContent& MeshLibrary::read(const std::filesystem::path& file,
@@ -238,20 +136,12 @@ void take_looks(const MeshContent& content, MeshSplit split, MeshLibrary::Answer
                            " colours: the most frequent one is used (or use --split groups)");
 }
 
-void look_also_in(const std::vector<std::filesystem::path>& folders, const std::string& uri,
-                  const ImportOptions& options, std::vector<std::filesystem::path>& looked_for,
-                  std::optional<std::filesystem::path>& file) {
-  for (const std::filesystem::path& folder : folders)
-    if (!file) file = MeshLibrary(folder, options).find(uri, looked_for);
-}
-
 }  // namespace
 
 std::optional<std::filesystem::path> MeshLibrary::find_also_in(
     const std::string& uri, const std::vector<std::filesystem::path>& also_in) {
   std::vector<std::filesystem::path> looked_for;
-  std::optional<std::filesystem::path> file = find(uri, looked_for);
-  look_also_in(also_in, uri, *options_, looked_for, file);
+  std::optional<std::filesystem::path> file = places_.find(uri, also_in, looked_for);
   if (!file) return file;
   files_.push_back(*file);
   hash_text_ += file->string();
@@ -268,8 +158,7 @@ const MeshLibrary::Answer& MeshLibrary::parts_of(
 
   Answer answer;
   std::vector<std::filesystem::path> looked_for;
-  std::optional<std::filesystem::path> file = find(uri, looked_for);
-  look_also_in(also_in, uri, *options_, looked_for, file);
+  std::optional<std::filesystem::path> file = places_.find(uri, also_in, looked_for);
   std::string title = uri;
   if (!file) {
     // Descriptions outlive their meshes' formats: the same name in another one will do.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/shape/shape.h"
+#include "renderer/import/mesh/mesh_places.h"
 #include "renderer/import/model/import_options.h"
 #include "renderer/import/model/mesh_looks.h"
 #include "renderer/import/model/mesh_pictures.h"
@@ -44,14 +45,11 @@ constexpr std::size_t most_shown_vertices(std::size_t numbers) {
   return std::max<std::size_t>(200'000, 8 * numbers);
 }
 
-/// The places between commas; of many, the first ones.
-std::string list_of_places(const std::vector<std::filesystem::path>& places);
-
 class MeshLibrary {
  public:
   /// `folder`: that of the file that names the meshes.
   MeshLibrary(std::filesystem::path folder, const ImportOptions& options)
-      : folder_(std::move(folder)), options_(&options) {}
+      : places_(std::move(folder), options), options_(&options) {}
 
   /// A surface, or a hull where surfaces are not requested or there are no triangles.
   struct Part {
@@ -83,7 +81,9 @@ class MeshLibrary {
 
   /// The file that a name refers to, if there is one; `looked_for` gets all places.
   std::optional<std::filesystem::path> find(const std::string& uri,
-                                            std::vector<std::filesystem::path>& looked_for) const;
+                                            std::vector<std::filesystem::path>& looked_for) const {
+    return places_.find(uri, looked_for);
+  }
 
   /// Searches other folders as well. A file that is found is added to the model's files.
   std::optional<std::filesystem::path> find_also_in(
@@ -95,14 +95,11 @@ class MeshLibrary {
  private:
   Answer add(const MeshParts& mesh, const Vec3<double>& scale, const std::string& name);
 
-  std::filesystem::path folder_;
+  MeshPlaces places_;
   const ImportOptions* options_;
   const MeshContent& read(const std::filesystem::path& file, const MeshFormatReader& format,
                           MeshSplit split);
-  std::vector<std::filesystem::path> folders_of_package(
-      const std::string& package, const std::vector<std::filesystem::path>& folders) const;
   std::map<std::pair<std::string, MeshSplit>, MeshContent> read_;
-  mutable std::map<std::string, std::vector<std::filesystem::path>> packages_;  ///< folders
   std::map<std::string, Answer> made_;
   MeshPictures pictures_;
   std::size_t read_vertices_ = 0;   ///< of files

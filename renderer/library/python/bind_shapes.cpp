@@ -69,12 +69,30 @@ class NumbersOfPairs {
   std::size_t step_;
 };
 
-py::array_t<double> column(const std::vector<py::ssize_t>& shape) {
-  return py::array_t<double>(shape);
-}
-
-void put(const minkray::Vec3& point, py::array_t<double>& points, std::size_t i) {
-  std::copy_n(&point.x, 3, points.mutable_data() + 3 * i);
+/// A column for each number, vector and status of the answers.
+template <class Answer>
+py::dict columns_of(const std::vector<Answer>& found,
+                    std::initializer_list<std::pair<const char*, double Answer::*>> numbers) {
+  const auto n = static_cast<py::ssize_t>(found.size());
+  py::dict result;
+  for (const auto& [name, number] : numbers) {
+    py::array_t<double> column(n);
+    for (std::size_t i = 0; i < found.size(); ++i) column.mutable_data()[i] = found[i].*number;
+    result[name] = column;
+  }
+  for (const auto& [name, vector] : {std::pair{"point_a", &Answer::point_a},
+                                     {"point_b", &Answer::point_b},
+                                     {"normal", &Answer::normal}}) {
+    py::array_t<double> column({n, py::ssize_t{3}});
+    for (std::size_t i = 0; i < found.size(); ++i)
+      std::copy_n(&(found[i].*vector).x, 3, column.mutable_data() + 3 * i);
+    result[name] = column;
+  }
+  py::array_t<std::uint8_t> status(n);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    status.mutable_data()[i] = static_cast<std::uint8_t>(found[i].status);
+  result["status"] = status;
+  return result;
 }
 
 py::dict signed_distance(const std::vector<Shape>& a, const Doubles& pose_a,
@@ -89,29 +107,10 @@ py::dict signed_distance(const std::vector<Shape>& a, const Doubles& pose_a,
           minkray::signed_distance(of_pair(a, i), poses_a.of_pair<minkray::Pose>(i), of_pair(b, i),
                                    poses_b.of_pair<minkray::Pose>(i), tolerance);
   }
-  const auto n = static_cast<py::ssize_t>(count);
-  auto value = column({n}), lower = column({n}), upper = column({n});
-  auto point_a = column({n, 3}), point_b = column({n, 3}), normal = column({n, 3});
-  py::array_t<std::uint8_t> status(n);
-  for (std::size_t i = 0; i < count; ++i) {
-    const minkray::Distance& one = found[i];
-    value.mutable_data()[i] = one.value;
-    lower.mutable_data()[i] = one.lower;
-    upper.mutable_data()[i] = one.upper;
-    status.mutable_data()[i] = static_cast<std::uint8_t>(one.status);
-    put(one.point_a, point_a, i);
-    put(one.point_b, point_b, i);
-    put(one.normal, normal, i);
-  }
-  py::dict result;
-  result["value"] = value;
-  result["lower"] = lower;
-  result["upper"] = upper;
-  result["point_a"] = point_a;
-  result["point_b"] = point_b;
-  result["normal"] = normal;
-  result["status"] = status;
-  return result;
+  using minkray::Distance;
+  return columns_of<Distance>(
+      found,
+      {{"value", &Distance::value}, {"lower", &Distance::lower}, {"upper", &Distance::upper}});
 }
 
 py::dict time_of_impact(const std::vector<Shape>& a, const Doubles& pose_a, const Doubles& twist_a,
@@ -128,29 +127,9 @@ py::dict time_of_impact(const std::vector<Shape>& a, const Doubles& pose_a, cons
           of_pair(b, i), poses_b.of_pair<minkray::Pose>(i), twists_b.of_pair<minkray::Twist>(i),
           ends.of_pair<double>(i));
   }
-  const auto n = static_cast<py::ssize_t>(count);
-  auto t_lo = column({n}), t_hi = column({n}), distance = column({n});
-  auto point_a = column({n, 3}), point_b = column({n, 3}), normal = column({n, 3});
-  py::array_t<std::uint8_t> status(n);
-  for (std::size_t i = 0; i < count; ++i) {
-    const minkray::Impact& one = found[i];
-    t_lo.mutable_data()[i] = one.t_lo;
-    t_hi.mutable_data()[i] = one.t_hi;
-    distance.mutable_data()[i] = one.distance;
-    status.mutable_data()[i] = static_cast<std::uint8_t>(one.status);
-    put(one.point_a, point_a, i);
-    put(one.point_b, point_b, i);
-    put(one.normal, normal, i);
-  }
-  py::dict result;
-  result["t_lo"] = t_lo;
-  result["t_hi"] = t_hi;
-  result["distance"] = distance;
-  result["point_a"] = point_a;
-  result["point_b"] = point_b;
-  result["normal"] = normal;
-  result["status"] = status;
-  return result;
+  using minkray::Impact;
+  return columns_of<Impact>(
+      found, {{"t_lo", &Impact::t_lo}, {"t_hi", &Impact::t_hi}, {"distance", &Impact::distance}});
 }
 
 Shape mesh(const py::array_t<double, py::array::c_style>& vertices,

@@ -6,7 +6,7 @@
 
 #include "tests/fuzz/change/json_changes.h"
 #include "tests/fuzz/change/xml_changes.h"
-#include "tests/support/source_files.h"
+#include "tests/fuzz/inputs.h"
 
 namespace minkray::fuzz {
 namespace {
@@ -52,7 +52,7 @@ std::string numbered(std::size_t number) {
 
 TEST(MutatorsOfStructure, json_stays_json) {
   JsonChanges changes{KnownJson({"radius", "sphere"})};
-  for (const SourceFile& file : files_in("tests/fuzz/corpus/scene"))
+  for (const SourceFile& file : kept_inputs("scene", "corpus"))
     if (is_json(file.text) && file.text.find('{') != std::string::npos)
       expect_documents(file.text, changes, is_json);
 }
@@ -60,7 +60,7 @@ TEST(MutatorsOfStructure, json_stays_json) {
 TEST(MutatorsOfStructure, xml_stays_xml) {
   for (const char* kind : {"mjcf", "urdf", "sdf"}) {
     XmlChanges changes{KnownXml({"geom", "box"})};
-    for (const SourceFile& file : files_in(std::string("tests/fuzz/corpus/") + kind))
+    for (const SourceFile& file : kept_inputs(kind, "corpus"))
       expect_documents(file.text, changes, is_xml);
   }
 }

@@ -7,7 +7,7 @@
 
 #include <stdexcept>
 
-#include "tests/support/source_files.h"
+#include "tests/fuzz/inputs.h"
 
 namespace minkray {
 namespace {
@@ -55,7 +55,7 @@ std::string frame(int width, int height, int components, char marker = '\xc0') {
 
 TEST(JpegTables, of_pictures_can_be_used) {
   int count = 0;
-  for (const SourceFile& file : files_in("tests/fuzz/corpus/image"))
+  for (const SourceFile& file : fuzz::kept_inputs("image", "corpus"))
     if (file.name.ends_with(".jpg")) {
       EXPECT_FALSE(is_refused(std::string_view(file.text).substr(1))) << file.name;
       ++count;

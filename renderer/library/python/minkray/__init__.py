@@ -18,10 +18,10 @@ from .answers import EXHAUSTED, HIT, INSIDE, MISS, NO_OBJECT, Clearance, Hits, M
 from .robots import Robot
 from .scene import Scene
 from .rays import camera, lidar, pinhole
-from .shapes import (box, capsule, cone, custom, cut_cylinder, cylinder, difference, disk, ellipsoid,
-                     frustum, height_field, hull, hull_of, make, mesh, mesh_info, point, read_shape, rounded, scaled,
-                     segment, sphere, sum, superellipsoid, swept, tapered_capsule, transformed, translated,
-                     triangle)
+from .meshes import height_field, mesh, mesh_info
+from .shapes import (box, capsule, cone, custom, cut_cylinder, cylinder, disk, ellipsoid, frustum, hull, make, point,
+                     read_shape, segment, sphere, superellipsoid, tapered_capsule, triangle)
+from .shapes_of_shapes import difference, hull_of, rounded, scaled, sum, swept, transformed, translated
 from .pairs import (BEGINS_INSIDE, IMPACT, NO_IMPACT, OVERLAPPING, SEPARATED, TOUCHING, UNDECIDED,
                     Distance, DistanceStatus, Impact, ImpactStatus, signed_distance, time_of_impact)
 from .many_pairs import (Distances, Impacts, Manifolds, manifolds, pair_memory, signed_distances,

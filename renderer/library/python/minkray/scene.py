@@ -1,21 +1,17 @@
 # SPDX-License-Identifier: MIT
 """Scenes and their queries."""
-import json
 import threading
 
 import numpy as np
 
 from . import _minkray
-from .answers import EXHAUSTED, HIT, NO_OBJECT, Clearance, Hits, Proofs, Verdict
+from .answers import NO_OBJECT, Clearance, Verdict
 from .calls import (Error, array_of, given_pose_of, name_of, number_of, pose_of, public, shape_of,
                     text_of, vectors_of, whole_number_of)
-from .rays import pinhole
+from .many_pairs import threads_of
 from .robots import Robot, robot_of
 from .scene_pairs import PairsOfScene
-
-
-def _threads(number):
-    return whole_number_of(number, "threads", 1024)
+from .scene_rays import RaysOfScene
 
 
 class _Names(list):
@@ -29,7 +25,7 @@ class _Names(list):
         return super().__getitem__(number)
 
 
-class Scene(PairsOfScene):
+class Scene(RaysOfScene, PairsOfScene):
     """Objects with poses, for ray casts, distances and pictures.
 
     Changes take effect at the next query. Any number of threads may query a scene. Changing it
@@ -304,210 +300,6 @@ class Scene(PairsOfScene):
                     self.commit()
         return self._scene
 
-    @staticmethod
-    def _rows(rays, t_max):
-        rays = array_of(rays, "rays")
-        if rays.ndim == 0 or rays.shape[-1] != 6:
-            raise Error(f"rays: must have the shape (..., 6) (got {rays.shape})")
-        if t_max is not None:
-            t_max = array_of(t_max, "t_max", "a number, or one per ray")
-            try:
-                t_max = np.broadcast_to(t_max, rays.shape[:-1]).ravel() if t_max.ndim > 0 else t_max
-            except ValueError:
-                raise Error(f"t_max: must be a number, or one per ray (got the shape {t_max.shape} "
-                            f"for rays of {rays.shape[:-1]})") from None
-        rows = rays if rays.ndim == 2 else rays.reshape(-1, 6)
-        return rows, t_max, rays.shape[:-1]
-
-    @staticmethod
-    def _shaped(fields, shape):
-        return {name: values.reshape(shape + values.shape[1:]) if isinstance(values, np.ndarray)
-                else values for name, values in fields.items()}
-
-    @public
-    def cast_rays(self, rays, t_max=None, threads=0, *, jac=False, jac_error=False):
-        """First hits of rays.
-
-        Parameters
-        ----------
-        rays : (N, 6) or (..., 6) array
-            Origin and direction (of any length except zero). Arrays of float64 are not copied.
-        t_max : float or (...) array, optional
-            End of the ray, in lengths of the direction; None: no end. 0: only the origin.
-        threads : int
-            0: one per core. Results are bit-identical for any number.
-        jac : bool
-            Add derivatives of `t`.
-        jac_error : bool
-            Add bounds of the derivatives' errors.
-
-        Returns
-        -------
-        Hits
-            Its arrays have the shape of the rays, without the last axis.
-
-        Raises
-        ------
-        Error
-            If the rays have another shape, a zero direction, or a number that is not finite; names
-            the ray.
-
-        Examples
-        --------
-        >>> import minkray as mk
-        >>> scene = mk.Scene()
-        >>> ball = scene.add(mk.sphere(1))
-        >>> scene.cast_rays([[-4, 0, 0, 2, 0, 0], [-4, 3, 0, 2, 0, 0]]).t
-        array([1.5, inf])
-        """
-        rows, ends, shape = self._rows(rays, t_max)
-        found = self._ready().cast(rows, ends, _threads(threads), bool(jac), bool(jac_error))
-        fields = {name: found.pop(name) for name in ("t", "t_lo", "t_hi")}  # t is the first of all
-        return Hits(self._shaped({**fields, **found}, shape))
-
-    @public
-    def occluded(self, rays, t_max=None, threads=0):
-        """True for rays that hit anything.
-
-        Parameters
-        ----------
-        rays, t_max, threads
-            As for `cast_rays`.
-
-        Returns
-        -------
-        (...) array of bool
-
-        Raises
-        ------
-        RuntimeError
-            If the solver did not converge for a ray.
-        """
-        rows, t_max, shape = self._rows(rays, t_max)
-        blocked = self._ready().occluded(rows, t_max, _threads(threads))
-        if (blocked == EXHAUSTED).any():
-            raise RuntimeError(f"the solver did not converge at ray {int(np.argmax(blocked == EXHAUSTED))}")
-        return (blocked == HIT).reshape(shape)
-
-    @public
-    def certify(self, rays, hits=None, t_max=None, threads=0):
-        """Casts rays and proves the results for all objects, by planes and support points alone.
-
-        Parameters
-        ----------
-        rays : (N, 6) or (..., 6) array
-            As for `cast_rays`.
-        hits : Hits, optional
-            Results of `cast_rays` for the same rays and t_max. A result that differs from a new cast
-            does not hold.
-        t_max : float or (...) array, optional
-            As for `cast_rays`.
-        threads : int
-
-        Returns
-        -------
-        Proofs
-        """
-        rows, ends, shape = self._rows(rays, t_max)
-        proofs = Proofs(self._shaped(self._ready().certify(rows, ends, _threads(threads)), shape))
-        if hits is not None:
-            if not isinstance(hits, Hits) or np.shape(hits.t) != shape:
-                raise Error(f"hits: must be the Hits of these rays, of the shape {shape}")
-            met = self.cast_rays(rays, t_max, threads)
-            differs = (met.t != hits.t) | (met.object != hits.object) | (met.status != hits.status)
-            proofs.holds[...] &= ~differs
-            for i in np.flatnonzero(differs):
-                proofs.complaint[i] = "the result differs from a new cast"
-        return proofs
-
-    @public
-    def depth(self, K, pose, width, height, threads=0):
-        """A depth image of a pinhole camera.
-
-        Parameters
-        ----------
-        K, pose, width, height
-            As for `minkray.pinhole`.
-        threads : int
-
-        Returns
-        -------
-        depth : (height, width) array of float64
-            Along the camera's z axis; inf for a miss, NaN if the solver did not converge.
-        object : (height, width) array of uint32
-            NO_OBJECT for a miss.
-        """
-        hits = self.cast_rays(pinhole(K, pose, width, height), threads=threads)
-        return np.where(hits.status == EXHAUSTED, np.nan, hits.t), hits.object
-
-    @public
-    def render(self, camera=None, spp=16, bounces=None, aovs=(), *, lights=None, background=None,
-               width=0, height=0, integrator="auto", max_depth=None, denoise=False, seed=0, threads=0):
-        """Renders a picture.
-
-        Parameters
-        ----------
-        camera : dict, optional
-            As in scene files: ``{"position": [0, -5, 2], "look_at": [0, 0, 0]}``. None: the camera of
-            the first scene file that has one; if none has, everything is framed.
-        spp : int
-            Samples per pixel.
-        bounces : int, optional
-            Diffuse bounces of the integrator 'ambient' (default 1).
-        aovs : list of str
-            More channels: 'Z', 'N', 'P', 'dist', 'id.object', 'albedo' and all others of ``minkray
-            render --help``, except 'cryptomatte'.
-        lights : list of dict, optional
-            As in scene files; None: the lights of the scene files, or a sun and a sky.
-        background : list or dict, optional
-            As in scene files; None: the background of the scene files.
-        width, height : int
-            In pixels; 0 for the camera's.
-        integrator : {'auto', 'path', 'direct', 'ambient', 'normals'}
-        max_depth : int, optional
-            Largest number of bounces of the integrator 'path' (default 16).
-        denoise : bool
-        seed : int
-        threads : int
-            0: one per core. The picture is bit-identical for any number.
-
-        Returns
-        -------
-        dict of str to array
-            'rgb' (linear, float32, (height, width, 3)) and each of the aovs (float32 or uint32,
-            (height, width) or (height, width, 2 or 3)). Rows from the top.
-
-        Examples
-        --------
-        >>> import minkray as mk
-        >>> scene = mk.Scene()
-        >>> ball = scene.add(mk.sphere(1))
-        >>> view = {"position": [0, -5, 2], "look_at": [0, 0, 0]}
-        >>> picture = scene.render(view, spp=1, aovs=["N"], width=32, height=24)
-        >>> picture["rgb"].shape, picture["N"].dtype
-        ((24, 32, 3), dtype('float32'))
-        """
-        view = {name: value for name, value in
-                (("camera", camera), ("lights", lights), ("background", background))
-                if value is not None}
-
-        def plain(value):
-            if hasattr(value, "tolist"):
-                return value.tolist()
-            raise Error(f"camera, lights, background: cannot hold a {type(value).__name__}")
-
-        def often(number, name):
-            return 0 if number is None else whole_number_of(number, name, 1000) or -1
-
-        if isinstance(aovs, str):
-            raise Error(f"aovs: must be a list of names, such as [{aovs!r}]")
-        names = ["rgb", *(text_of(name, f"aovs[{i}]") for i, name in enumerate(aovs))]
-        return _minkray.render(self._ready(), json.dumps(view, default=plain) if view else "",
-                               whole_number_of(width, "width"), whole_number_of(height, "height"),
-                               whole_number_of(spp, "spp"), whole_number_of(seed, "seed", 2**64 - 1),
-                               text_of(integrator, "integrator"), often(bounces, "bounces"),
-                               often(max_depth, "max_depth"), bool(denoise), names, _threads(threads))
-
     @public
     def clearance(self, robot, path, tolerance=0.01, only_obstacles=False, threads=0, *, jac=False,
                   jac_error=False):
@@ -543,7 +335,7 @@ class Scene(PairsOfScene):
             raise Error(f"path: must have shape (rows, joint values) (got {path.shape})")
         return Clearance(_minkray.clearance(self._ready(), robot._group, path,
                                             number_of(tolerance, "tolerance"), bool(only_obstacles),
-                                            bool(jac), bool(jac_error), _threads(threads)))
+                                            bool(jac), bool(jac_error), threads_of(threads)))
 
     def verify(self, robot, path, rates=None, margin=0.0, tolerance=0.01, only_obstacles=False, threads=0,
                *, budget=4000, accelerations=None, proof=None):
@@ -596,4 +388,4 @@ class Scene(PairsOfScene):
                                        number_of(margin, "margin"), number_of(tolerance, "tolerance"),
                                        whole_number_of(int(budget), "budget"), bool(only_obstacles),
                                        name_of(proof, "proof") if proof is not None else b"",
-                                       _threads(threads)))
+                                       threads_of(threads)))

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Corners of a hull's face around a point in it, as a plane polygon.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/pair/core_support.h"
+
+namespace minkray {
+
+/// Seen from the point, in the plane across the normal.
+struct FaceCorner {
+  double angle, x, y;
+};
+
+/// The hull's points that `takes(height above the point)`, in any order, without their angles. The
+/// list is valid until the thread's next call.
+template <class Takes>
+std::vector<FaceCorner>& face_corners(const ShapeCore& core, const Vec3<double>& point,
+                                      const Vec3<double>& n, const Takes& takes) {
+  const Vec3<double> u = n.unitOrthogonal(), v = n.cross(u);
+  thread_local std::vector<FaceCorner> corners;
+  corners.clear();
+  for (int i = 0; i < core.count; ++i) {
+    const Vec3<double> to = Vec3<double>(core.x[i], core.y[i], core.z[i]) - point;
+    if (takes(n.dot(to))) corners.push_back({0, u.dot(to), v.dot(to)});
+  }
+  return corners;
+}
+
+/// Sorts the corners round the point.
+inline void sort_round(std::vector<FaceCorner>& corners) {
+  for (FaceCorner& corner : corners) corner.angle = std::atan2(corner.y, corner.x);
+  std::ranges::sort(corners, {}, &FaceCorner::angle);
+}
+
+/// Distance of a face's corners from its plane by their rounding, in sizes.
+inline constexpr double flat_face = 1e-12;
+
+}  // namespace minkray
