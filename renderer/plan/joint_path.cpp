@@ -2,6 +2,7 @@
 // Tables of joint values, and the path of a robot along a trajectory.
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <numbers>
 
@@ -54,6 +55,20 @@ Trajectory read_npy_rows(const std::string& file, const Model& model,
   }
   for (const std::string& message : of_file.messages()) mistakes.add(message);
   return trajectory;
+}
+
+/// True if a table has a column of times, or its rows a key.
+bool gives_times(const std::string& file) {
+  std::ifstream stream(file);
+  if (!ends_with_any(file, {".csv", ".CSV"})) {
+    const std::string rows(std::istreambuf_iterator<char>(stream), {});
+    return rows.find("\"time\"") != rows.npos;
+  }
+  std::string names;
+  std::getline(stream, names);
+  std::erase_if(names, [](char c) { return c == '"' || c == ' ' || c == '\t' || c == '\r'; });
+  if (names.starts_with("\xef\xbb\xbf")) names.erase(0, 3);  // UTF-8's byte order mark
+  return ("," + names + ",").find(",time,") != names.npos;
 }
 
 /// True if a row has rates of that joint: they lead it its own way round.
@@ -153,10 +168,7 @@ Trajectory read_table(const std::string& file, Model& model,
   const std::size_t begin = printable(file).size() + 6;
   for (const std::string& message : of_file.messages())
     mistakes.add(std::string_view(message).substr(std::min(begin, message.size())));
-  std::size_t number = 0;
-  trajectory.has_times = std::ranges::any_of(trajectory.rows, [&](const JointRow& row) {
-    return row.time != static_cast<double>(number++);
-  });
+  trajectory.has_times = gives_times(file);
   return trajectory;
 }
 
