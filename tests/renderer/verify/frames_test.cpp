@@ -121,7 +121,7 @@ TEST_F(FarFrames, proofs_far_from_the_origin_hold) {
     EXPECT_EQ(made.exit_code, 0) << far << ": " << made.out << made.err;
     EXPECT_NE(made.out.find("holds: free: "), std::string::npos) << made.out;
   }
-  // Clearances that the checker cannot tell from none have no proof.
+  // A clearance below the rounding of the checker has no proof.
   write("near.yaml", "joint_names: [x]\npoints: [{positions: [-1]}, {positions: [1]}]\n");
   put_ball("[0, -0.3000000000005, 0]");
   EXPECT_EQ(verify("--scene scene.yaml --trajectory near.yaml --tolerance 0.1").exit_code, 0);
