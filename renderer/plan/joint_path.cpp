@@ -112,6 +112,21 @@ void go_shorter_way(Trajectory& trajectory, const Model& model) {
     }
 }
 
+/// Notes a joint that is elsewhere in the start state than in the first row.
+void note_distant_start(Trajectory& trajectory) {
+  constexpr double near = 0.01;  // MoveIt's allowed_start_tolerance
+  const JointValues& first = trajectory.rows.front().values;
+  for (const auto& [name, numbers] : trajectory.start) {
+    const auto row = std::ranges::find(first, name, &JointValues::value_type::first);
+    if (row == first.end() || numbers.size() != 1 || row->second.size() != 1) continue;
+    if (std::abs(row->second[0] - numbers[0]) <= near) continue;
+    trajectory.notes.push_back("the joint \"" + printable(name, 60) +
+                               "\" is not at its start in the first row; the way there is not "
+                               "verified");
+    return;
+  }
+}
+
 /// Values in the order of a path's joints. Joints that mimic others get their derived values.
 std::vector<std::vector<double>> in_order(const Model& model, const JointValues& values) {
   std::map<std::string_view, const std::vector<double>*> by_name;
@@ -183,6 +198,7 @@ JointPath path_of(Trajectory& trajectory, Model& model, const JointValues& state
       if (joint.value.empty() && joint.kind != JointKind::fixed)
         joint.value = value_of(link, joint);
   follow_mimics(model);
+  note_distant_start(trajectory);
   go_shorter_way(trajectory, model);
   JointPath path(model, trajectory.rows);
   for (const JointValues& row : trajectory.rates) path.rates.push_back(in_order(model, row));

@@ -59,7 +59,7 @@ TEST_F(FarFrames, floating_joints_are_in_their_parents_frame) {
   EXPECT_NEAR(lower("--scene scene.yaml --trajectory slide.yaml"), 1.5 - 0.3, 0.02);
   put_ball("[1.6, 0, 1.5]");
   EXPECT_NEAR(lower("--scene scene.yaml --trajectory slide.yaml"), 0.3, 0.01);
-  // From 1 behind to 1 before the lift, which stays where the scene says.
+  // From x = -1 to x = 1 in the frame of the lift, which is at rest.
   write("fly.yaml", R"(multi_dof_joint_trajectory:
   joint_names: [fly]
   points:

@@ -152,6 +152,21 @@ TEST_F(OddInputs, times_of_tables_are_times) {
   expect_begin(said("rows.json", R"([{"turn":0},{"turn":1.5707963}])"), ", at row 1.875 by");
 }
 
+/// Such motions are free, but for what is not verified.
+TEST_F(OddInputs, starts_elsewhere_and_robots_without_shapes_have_notes) {
+  expect_begin(with_plan("trajectory_start: {joint_state: {name: [turn], position: [1]}}\n"
+                         "joint_trajectory: {joint_names: [turn], points: [{positions: [0]}, "
+                         "{positions: [1]}]}\n"),
+               "0 odd.yaml: the joint \"turn\" is not at its start in the first row");
+  write("r.urdf", R"(<robot name="r"><link name="base"/><link name="bob"><visual><geometry>
+  <sphere radius="0.1"/></geometry></visual></link><joint name="turn" type="continuous">
+  <parent link="base"/><child link="bob"/></joint></robot>)");
+  const ProgramOutcome outcome = verify("--scene scene.yaml --trajectory plan.yaml");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.err.find("r.urdf: has no shapes that can collide"), std::string::npos)
+      << outcome.err;
+}
+
 /// A quaternion's length does not matter, and one of length zero turns nothing, as in MoveIt.
 TEST_F(OddInputs, quaternions_of_any_length_turn) {
   const auto lower = [&](const std::string& orientation) {
