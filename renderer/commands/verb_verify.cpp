@@ -23,6 +23,7 @@
 #include "renderer/jobs/verify_inputs.h"
 #include "renderer/jobs/verify_picture.h"
 #include "renderer/json/number_json.h"
+#include "renderer/json/parse.h"
 #include "renderer/plan/motion_page.h"
 #include "renderer/verify/proof.h"
 #include "renderer/verify/provable.h"
@@ -167,8 +168,11 @@ void serve(const VerifyOptions& options, const VerifyCell& cell) {
     judge(passing, cell, options, [&] {
       // A line is a plan itself, or the quoted name of a file.
       const std::string& line = passing.text;
-      return line[line.find_first_not_of(" \t")] == '"' ? load_plan(Json::parse(line).text(), cell)
-                                                        : parse_plan(line, passing.name, cell);
+      if (line[line.find_first_not_of(" \t")] != '"') return parse_plan(line, passing.name, cell);
+      Mistakes mistakes(passing.name);
+      const std::optional<Json> file = parse_json(line, mistakes);
+      throw_if_any(mistakes);
+      return load_plan(file->text(), cell);
     });
   };
   const auto write_error = [](const std::string& name, const std::exception& error) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/jobs/verify_inputs.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -164,6 +165,10 @@ VerifyCell load_cell(const VerifyInputs& inputs, CommandFiles& files) {
   options.inflate = inflated(inputs.inflate, *model);
   cell.cell = workcell_of(std::move(*model), std::move(scenes), has_planning ? &planning : nullptr,
                           allowed, options);
+  if (std::ranges::all_of(cell.cell.bodies,
+                          [](const ClearanceBody& body) { return body.link_index < 0; }))
+    cell.notes.push_back(inputs.robot +
+                         ": has no shapes that can collide; --geometry visual uses visible ones");
   return cell;
 }
 

@@ -47,7 +47,7 @@ struct Plan {
 
 /// Throws BadInput with all mistakes.
 Plan load_plan(const std::string& file, const VerifyCell& cell);
-/// Reads a plan of one line, called `name` in mistakes: a message of ROS or a list of rows.
+/// Reads a plan of one line, called `name` in mistakes: a message of ROS.
 Plan parse_plan(const std::string& line, const std::string& name, const VerifyCell& cell);
 
 }  // namespace minkray

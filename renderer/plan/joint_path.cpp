@@ -2,6 +2,7 @@
 // Tables of joint values, and the path of a robot along a trajectory.
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <numbers>
 
@@ -56,6 +57,20 @@ Trajectory read_npy_rows(const std::string& file, const Model& model,
   return trajectory;
 }
 
+/// True if a table has a column of times, or its rows a key.
+bool gives_times(const std::string& file) {
+  std::ifstream stream(file);
+  if (!ends_with_any(file, {".csv", ".CSV"})) {
+    const std::string rows(std::istreambuf_iterator<char>(stream), {});
+    return rows.find("\"time\"") != rows.npos;
+  }
+  std::string names;
+  std::getline(stream, names);
+  std::erase_if(names, [](char c) { return c == '"' || c == ' ' || c == '\t' || c == '\r'; });
+  if (names.starts_with("\xef\xbb\xbf")) names.erase(0, 3);  // UTF-8's byte order mark
+  return ("," + names + ",").find(",time,") != names.npos;
+}
+
 /// True if a row has rates of that joint: they lead it its own way round.
 bool has_rates(const Trajectory& trajectory, const std::string& joint) {
   return std::ranges::any_of(trajectory.rates, [&](const JointValues& row) {
@@ -95,6 +110,21 @@ void go_shorter_way(Trajectory& trajectory, const Model& model) {
             "than half a turn in " + std::to_string(steps) + (steps == 1 ? " step" : " steps") +
             "; using the shorter way (" + (is_planar ? "planar" : "continuous") + " joint)");
     }
+}
+
+/// Notes a joint that is elsewhere in the start state than in the first row.
+void note_distant_start(Trajectory& trajectory) {
+  constexpr double near = 0.01;  // MoveIt's allowed_start_tolerance
+  const JointValues& first = trajectory.rows.front().values;
+  for (const auto& [name, numbers] : trajectory.start) {
+    const auto row = std::ranges::find(first, name, &JointValues::value_type::first);
+    if (row == first.end() || numbers.size() != 1 || row->second.size() != 1) continue;
+    if (std::abs(row->second[0] - numbers[0]) <= near) continue;
+    trajectory.notes.push_back("the joint \"" + printable(name, 60) +
+                               "\" is not at its start in the first row; the way there is not "
+                               "verified");
+    return;
+  }
 }
 
 /// Values in the order of a path's joints. Joints that mimic others get their derived values.
@@ -153,10 +183,7 @@ Trajectory read_table(const std::string& file, Model& model,
   const std::size_t begin = printable(file).size() + 6;
   for (const std::string& message : of_file.messages())
     mistakes.add(std::string_view(message).substr(std::min(begin, message.size())));
-  std::size_t number = 0;
-  trajectory.has_times = std::ranges::any_of(trajectory.rows, [&](const JointRow& row) {
-    return row.time != static_cast<double>(number++);
-  });
+  trajectory.has_times = gives_times(file);
   return trajectory;
 }
 
@@ -171,6 +198,7 @@ JointPath path_of(Trajectory& trajectory, Model& model, const JointValues& state
       if (joint.value.empty() && joint.kind != JointKind::fixed)
         joint.value = value_of(link, joint);
   follow_mimics(model);
+  note_distant_start(trajectory);
   go_shorter_way(trajectory, model);
   JointPath path(model, trajectory.rows);
   for (const JointValues& row : trajectory.rates) path.rates.push_back(in_order(model, row));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/import/model/floating_joint.h"
 #include "renderer/import/model/orientation.h"
 #include "renderer/json/object_reader.h"
 #include "renderer/json/values.h"
@@ -86,10 +87,8 @@ void add_multi_dof(const Json& json, const JsonPath& path, const Model& model, J
     const JsonPath at = path / "transforms" / i;
     const ModelJoint* joint = joint_of(model, names[i]);
     // Virtual joints that are fixed, or that no SRDF names, leave the robot where it is.
-    if (joint && (joint->kind == JointKind::free || joint->kind == JointKind::planar)) {
-      values.emplace_back(names[i], values_of_transform(transforms[i], at, joint->kind, mistakes));
+    if (joint && add_values_of_transform(transforms[i], at, model, *joint, values, mistakes))
       continue;
-    }
     const Affine<double> pose = read_message_pose(transforms[i], at, mistakes);
     if (!pose.translation.isZero(1e-9) || !pose.linear.isIdentity(1e-9))
       mistakes.add(at, "moves the joint \"" + printable(names[i], 60) +
@@ -110,17 +109,30 @@ bool CollisionMatrix::allows(const std::string& a, const std::string& b) const {
   return of_b != defaults.end() && of_b->second;
 }
 
-std::vector<double> values_of_transform(const Json& json, const JsonPath& path, JointKind kind,
-                                        Mistakes& mistakes) {
+bool add_values_of_transform(const Json& json, const JsonPath& path, const Model& model,
+                             const ModelJoint& joint, JointValues& values, Mistakes& mistakes) {
+  const std::array<std::string, 3> slides = slides_of_floating(joint.name);
+  const bool has_slides = joint.kind == JointKind::ball && joint_of(model, slides[0]);
+  if (joint.kind != JointKind::free && joint.kind != JointKind::planar && !has_slides) return false;
   const Affine<double> pose = read_message_pose(json, path, mistakes);
   const Vec3<double>& p = pose.translation;
-  if (kind == JointKind::free) {
-    const auto q = quaternion_of(pose.linear);
-    return {p.x(), p.y(), p.z(), q[3], q[0], q[1], q[2]};
+  if (joint.kind == JointKind::planar) {
+    if (std::abs(p.z()) > 1e-9 || std::abs(pose.linear(2, 2) - 1) > 1e-9)
+      mistakes.add(path, "must stay in the plane of its joint: z is 0, and turns are about z");
+    values.emplace_back(
+        joint.name, std::vector{p.x(), p.y(), std::atan2(pose.linear(1, 0), pose.linear(0, 0))});
+    return true;
   }
-  if (std::abs(p.z()) > 1e-9 || std::abs(pose.linear(2, 2) - 1) > 1e-9)
-    mistakes.add(path, "must stay in the plane of its joint: z is 0, and turns are about z");
-  return {p.x(), p.y(), std::atan2(pose.linear(1, 0), pose.linear(0, 0))};
+  const auto q = quaternion_of(pose.linear);
+  std::vector<double> turn = {q[3], q[0], q[1], q[2]};
+  if (has_slides) {
+    for (std::size_t i = 0; i < slides.size(); ++i)
+      values.emplace_back(slides[i], std::vector{p[static_cast<Eigen::Index>(i)]});
+  } else {
+    turn.insert(turn.begin(), {p.x(), p.y(), p.z()});
+  }
+  values.emplace_back(joint.name, std::move(turn));
+  return true;
 }
 
 JointValues read_robot_state(const Json& json, const JsonPath& path, const Model& model,

@@ -59,8 +59,9 @@ PlanningScene read_planning_scene(const Document& document, const Json& json, co
 JointValues read_robot_state(const Json& json, const JsonPath& path, const Model& model,
                              std::vector<std::string>& notes, Mistakes& mistakes);
 
-/// Converts a transform to the numbers of a floating or planar joint.
-std::vector<double> values_of_transform(const Json& json, const JsonPath& path, JointKind kind,
-                                        Mistakes& mistakes);
+/// Adds the values of a joint that is floating or planar, from its transform. Returns false for
+/// other joints.
+bool add_values_of_transform(const Json& json, const JsonPath& path, const Model& model,
+                             const ModelJoint& joint, JointValues& values, Mistakes& mistakes);
 
 }  // namespace minkray

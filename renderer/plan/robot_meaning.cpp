@@ -56,6 +56,12 @@ class MeaningReader {
     if (child < 0) return;
     ModelLink& of = model_.links[static_cast<std::size_t>(child)];
     if (of.parent >= 0) return files_.wrong(element, "child_link: must be a root of the robot");
+    // A free joint places its link in the world, so the link would not move with the root.
+    for (const ModelLink& other : model_.links)
+      for (const ModelJoint& joint : other.joints)
+        if (other.parent >= 0 && joint.kind == JointKind::free)
+          return files_.wrong(element, "type: must be fixed: \"" + printable(joint.name, 60) +
+                                           "\" floats on the root already");
     ModelJoint joint;
     joint.name = element.attribute_or("name");
     joint.kind = type == "floating" ? JointKind::free : JointKind::planar;

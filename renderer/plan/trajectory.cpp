@@ -189,12 +189,8 @@ class TrajectoryReader {
                       "must have one for each of the " + std::to_string(joints.size()) + " joints");
       for (std::size_t k = 0; k < std::min(transforms.size(), joints.size()); ++k) {
         if (!joints[k]) continue;
-        const JointKind kind = joints[k]->kind;
-        if (kind == JointKind::free || kind == JointKind::planar)
-          values.emplace_back(
-              joints[k]->name,
-              values_of_transform(transforms[k], point / "transforms" / k, kind, mistakes_));
-        else
+        if (!add_values_of_transform(transforms[k], point / "transforms" / k, model_, *joints[k],
+                                     values, mistakes_))
           mistakes_.add(at / "joint_names" / k, "must be a floating or a planar joint");
       }
       if (!is_alone) {

@@ -45,6 +45,27 @@ void face(ModelGeom& plane, const Vec3<double>& point) {
   plane.pose.linear.col(2) *= -1;
 }
 
+/// Owner of each body of the model. Objects' shapes are the model's last ones, in order
+/// (add_to_model); by names alone the shape 1 of an object "a" would be an object "a/1".
+std::vector<std::string> owners_of(const Workcell& cell, const PlanningScene* planning) {
+  std::vector<std::string> of_shapes;
+  if (planning)
+    for (const auto* objects : {&planning->objects, &planning->attached})
+      for (const PlannedObject& object : *objects)
+        of_shapes.insert(of_shapes.end(), object.geoms.size(), object.id);
+  const std::vector<bool> wanted = chosen_geoms(cell.model, cell.geometry);
+  const std::size_t first = wanted.size() - of_shapes.size();
+  std::vector<std::string> owners;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (!wanted[i]) continue;
+    const ClearanceBody& body = cell.bodies[owners.size()];
+    owners.push_back(body.link_index >= 0 ? body.link
+                     : i >= first         ? of_shapes[i - first]
+                                          : body.name.substr(0, body.name.find('/')));
+  }
+  return owners;
+}
+
 class PairRules {
  public:
   PairRules(const Workcell& cell, const PlanningScene* planning, const AllowedPairs& allowed,
@@ -112,6 +133,10 @@ void add_to_model(const PlanningScene& scene, Model& model, Mistakes& mistakes) 
   std::vector<std::string> names;
   for (const ModelLink& link : model.links) names.push_back(link.name);
   for (const PlannedObject& object : scene.objects) {
+    if (!scene.matrix.empty() && link_of(model, object.id) >= 0)
+      mistakes.add(
+          "object \"" + printable(object.id, 60) +
+          "\": id: must not be the name of a link: allowed_collision_matrix has names only");
     const auto frame = frame_of(object.frame, scene, posed, links);
     if (!frame) {
       mistakes.add("object \"" + printable(object.id, 60) + "\": frame_id: no frame is named \"" +
@@ -173,16 +198,7 @@ Workcell workcell_of(Model model, std::vector<Scene> scenes, const PlanningScene
                      const AllowedPairs& allowed, const WorkcellOptions& options) {
   Workcell cell{std::move(model), std::move(scenes), {}, {}, {}, options.geometry};
   cell.bodies = bodies_of(cell.model, options.geometry);
-  for (const ClearanceBody& body : cell.bodies)
-    cell.owners.push_back(body.link_index >= 0 ? body.link
-                                               : body.name.substr(0, body.name.find('/')));
-  if (planning)  // the owner's name: names of objects may contain slashes
-    for (std::size_t i = 0; i < cell.bodies.size(); ++i) {
-      if (cell.bodies[i].link_index >= 0) continue;
-      for (const PlannedObject& object : planning->objects)
-        if (cell.bodies[i].name == object.id || cell.bodies[i].name.starts_with(object.id + "/"))
-          cell.owners[i] = object.id;
-    }
+  cell.owners = owners_of(cell, planning);
   for (const Scene& scene : cell.scenes)
     for (ClearanceBody& body : bodies_of(scene)) {
       cell.owners.push_back(body.name);

@@ -165,13 +165,37 @@ Json planes_json(std::vector<SeparatingPlane> planes) {
   return list;
 }
 
-/// Claims slightly less than was proven, since the checker rounds, too.
-double claimed(double lower, const std::vector<ClearanceBody>& bodies) {
-  double size = 0;
-  for (const ClearanceBody& body : bodies)
-    if (!body.plane) size = std::max(size, body.reach());
-  constexpr double rounding = 1e-10;
-  return std::max((1 - 10 * rounding) * lower - rounding * size, lower / 2);
+/// No body is further from the world's origin, nor from its link's.
+double furthest(const std::vector<ClearanceBody>& bodies, const JointPath& path) {
+  double far = 0;
+  std::vector<double> reaches(path.skeleton.links.size(), 0.0);
+  for (const ClearanceBody& body : bodies) {
+    if (body.plane)
+      far = std::max(far, length_of(body.plane->point.high));
+    else if (body.link_index < 0)
+      far = std::max(far, body.reach());
+    else
+      reaches[static_cast<std::size_t>(body.link_index)] =
+          std::max(reaches[static_cast<std::size_t>(body.link_index)], body.reach());
+  }
+  for (std::size_t step = 0; step < path.steps(); ++step) {
+    const StepMotion motion(path, step);
+    for (std::size_t link = 0; link < reaches.size(); ++link)
+      if (reaches[link] > 0)
+        far = std::max(far, motion.bound(static_cast<int>(link), -1, reaches[link]).reach);
+  }
+  return far;
+}
+
+/// Claims slightly less than was proven, since the checker rounds, too: it takes up to 1e-12 of the
+/// distances from the origin of the world from each gap.
+double claimed(double lower, const std::vector<ClearanceBody>& bodies, const JointPath& path) {
+  constexpr double of_clearance = 1e-9, of_distances = 1e-11;
+  const double claim = (1 - of_clearance) * lower - of_distances * furthest(bodies, path);
+  if (!(claim > 0))
+    throw BadInput("proof: the least clearance is too small for the rounding of minkray-check (" +
+                   number_json(lower).dump() + " m); without a proof it is verified anyway");
+  return claim;
 }
 
 }  // namespace
@@ -184,7 +208,7 @@ std::string proof_text(const Provable& proven, const JointPath& path, const Proo
                {"by", inputs.by},
                {"status", std::string(name_of(verdict.status))}};
   if (verdict.status == MotionStatus::free)
-    json["lower"] = number_json(claimed(verdict.least.lower, bodies));
+    json["lower"] = number_json(claimed(verdict.least.lower, bodies, path));
   Json files = Json::array();
   for (const std::filesystem::path& file : inputs.files)
     files.push_back({{"name", printable(file.string())},

@@ -6,6 +6,7 @@
 #include "renderer/image/colour.h"
 #include "renderer/import/mesh/geometry_common.h"
 #include "renderer/import/mesh/mesh_library.h"
+#include "renderer/import/model/floating_joint.h"
 #include "renderer/import/model/orientation.h"
 
 namespace minkray {
@@ -198,7 +199,11 @@ class UrdfReader {
       if (joint != joint_of_child_.end()) {
         if (!is_root(name)) link.parent = index[joint->second.parent];
         link.rest = joint->second.origin;
-        link.joints.push_back(joint->second.joint);
+        if (joint->second.joint.kind == JointKind::free &&
+            !(is_still(link) && is_world(link.parent)))
+          link.joints = floating_joints(joint->second.joint.name);
+        else
+          link.joints.push_back(joint->second.joint);
         if (joint->second.second) link.joints.push_back(*joint->second.second);
       }
       index[name] = static_cast<int>(model_.links.size());
@@ -214,6 +219,29 @@ class UrdfReader {
         files_.wrong(*joint_of_child_.at(name).element, "joints must not form a cycle");
         return;
       }
+  }
+
+  /// True if the link's frame is always its parent's.
+  static bool is_still(const ModelLink& link) {
+    return link.rest.translation.isZero(0) && link.rest.linear.isIdentity(0) &&
+           std::ranges::all_of(link.joints,
+                               [](const ModelJoint& one) { return one.kind == JointKind::fixed; });
+  }
+
+  /// True if the link's frame is always the world's.
+  bool is_world(int link) const {
+    while (link >= 0 && is_still(model_.links[static_cast<std::size_t>(link)]))
+      link = model_.links[static_cast<std::size_t>(link)].parent;
+    return link < 0;
+  }
+
+  static std::vector<ModelJoint> floating_joints(const std::string& name) {
+    std::vector<ModelJoint> joints;
+    for (const std::string& slide : slides_of_floating(name))
+      joints.push_back(
+          {slide, JointKind::slide, Vec3<double>::Unit(static_cast<Eigen::Index>(joints.size()))});
+    joints.push_back({name, JointKind::ball});
+    return joints;
   }
 
   void add_geoms(const XmlElement& link, int index) {

@@ -115,6 +115,58 @@ TEST_F(OddInputs, of_scenes_are_errors) {
                "empty");
 }
 
+/// Shapes of an object "post" are called post/1 and post/2, and an object "post/1" was taken for
+/// one of them: what may touch "post" could touch it, too.
+TEST_F(OddInputs, names_of_objects_are_not_mixed_up) {
+  const std::string objects =
+      "{id: post/1, primitives: [{type: sphere, dimensions: [0.2]}], primitive_poses: [{position: "
+      "[0, 1.2, 0]}]}\n    - {id: post, primitives: [{type: sphere, dimensions: [0.1]}, {type: "
+      "sphere, dimensions: [0.1]}], primitive_poses: [{position: [0, 3, 0]}, {position: [0, 4, "
+      "0]}]}";
+  const auto matrix = [](const std::string& name) {
+    return "allowed_collision_matrix: {entry_names: [bob, " + name +
+           "], entry_values: [[false, true], [true, false]]}\n";
+  };
+  expect_begin(with_scene(scene(objects) + matrix("post")), "1 ");
+  expect_begin(with_scene(scene(objects) + matrix("post/1")), "0 ");
+  // The matrix has names only.
+  const std::string base = "{id: base, primitives: [{type: sphere, dimensions: [0.2]}]}";
+  expect_begin(with_scene(scene(base)), "0 ");
+  expect_begin(with_scene(scene(base) + matrix("base")),
+               "3 odd.yaml: object \"base\": id: must not be the name of a link");
+}
+
+/// Times that are 0, 1, 2... are times all the same.
+TEST_F(OddInputs, times_of_tables_are_times) {
+  write("near.yaml", scene("{id: post, primitives: [{type: sphere, dimensions: [0.2]}], "
+                           "primitive_poses: [{position: [0, 1.2, 0]}]}"));
+  const auto said = [&](const std::string& name, const std::string& text) {
+    write(name, text);
+    const std::string out = verify("--scene near.yaml --trajectory " + name).out;
+    return out.substr(std::min(out.find(", at "), out.size()));
+  };
+  expect_begin(said("times.csv", "\"time\",turn\n0,0\n1,1.5707963\n"), ", at 0.875 s by");
+  expect_begin(said("rows.csv", "turn\n0\n1.5707963\n"), ", at row 1.875 by");
+  expect_begin(said("times.json", R"([{"time":0,"turn":0},{"time":1,"turn":1.5707963}])"),
+               ", at 0.875 s by");
+  expect_begin(said("rows.json", R"([{"turn":0},{"turn":1.5707963}])"), ", at row 1.875 by");
+}
+
+/// Such motions are free, but for what is not verified.
+TEST_F(OddInputs, starts_elsewhere_and_robots_without_shapes_have_notes) {
+  expect_begin(with_plan("trajectory_start: {joint_state: {name: [turn], position: [1]}}\n"
+                         "joint_trajectory: {joint_names: [turn], points: [{positions: [0]}, "
+                         "{positions: [1]}]}\n"),
+               "0 odd.yaml: the joint \"turn\" is not at its start in the first row");
+  write("r.urdf", R"(<robot name="r"><link name="base"/><link name="bob"><visual><geometry>
+  <sphere radius="0.1"/></geometry></visual></link><joint name="turn" type="continuous">
+  <parent link="base"/><child link="bob"/></joint></robot>)");
+  const ProgramOutcome outcome = verify("--scene scene.yaml --trajectory plan.yaml");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.err.find("r.urdf: has no shapes that can collide"), std::string::npos)
+      << outcome.err;
+}
+
 /// A quaternion's length does not matter, and one of length zero turns nothing, as in MoveIt.
 TEST_F(OddInputs, quaternions_of_any_length_turn) {
   const auto lower = [&](const std::string& orientation) {
@@ -180,6 +232,7 @@ TEST_F(OddInputs, lines_of_garbage_have_errors_and_hide_no_other) {
     status += Json::parse(line)["status"].text().substr(0, 1);
   EXPECT_EQ(status, "eeeefeeeeeeeeef");
   EXPECT_EQ(outcome.out.find("line 1: line 1"), std::string::npos);
+  EXPECT_NE(outcome.out.find("line 4: /: not valid JSON"), std::string::npos) << outcome.out;
 }
 
 }  // namespace

@@ -357,6 +357,12 @@ TEST_F(Proofs, that_cannot_be_read_are_not_wrong) {
   EXPECT_EQ(check(".").exit_code, 3);
   EXPECT_EQ(check("").exit_code, 2);
   EXPECT_EQ(check("past.yaml").exit_code, 1);
+  std::ofstream(folder_ / "numpy.py") << "raise ImportError\n";
+  const ProgramOutcome bare = run_shell("cd '" + folder_ / "" + "' && PYTHONPATH=. " + python_ +
+                                        " '" + checker() + "' past.yaml");
+  EXPECT_EQ(bare.exit_code, 3);
+  EXPECT_EQ(bare.err, "minkray-check: needs NumPy (python3-numpy)\n");
+  std::remove((folder_ / "numpy.py").c_str());
   std::ofstream(folder_ / "list.json") << R"([1e999,"sha256":")" << std::string(64, '0') << "\"}\n";
   EXPECT_EQ(check("list.json").exit_code, 1);
   // A name that is a number was the program's own output, which was read and closed.
