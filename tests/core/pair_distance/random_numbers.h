@@ -19,6 +19,7 @@ class RandomNumbers {
     return Vec3<double>(normal(engine_), normal(engine_), normal(engine_)).normalized();
   }
   Mat3<double> turn() { return rotation_matrix(in(-1, 1), in(-1, 1), in(-1, 1), in(-1, 1)); }
+  std::mt19937& engine() { return engine_; }
 
  private:
   std::mt19937 engine_;

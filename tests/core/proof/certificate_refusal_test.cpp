@@ -8,19 +8,12 @@
 #include "core/cast/cast.h"
 #include "core/proof/certificate.h"
 #include "core/proof/check_certificate.h"
+#include "tests/support/mapped.h"
 
 namespace minkray::testing {
 namespace {
 
 using V = Vec3<double>;
-
-Affine<double> moved(const V& by) {
-  return {Mat3<double>::Identity(), by};
-}
-
-Shape<double> mapped(const Shape<double>& shape, const Affine<double>& map) {
-  return Transform<double>{shape, map};
-}
 
 // All shapes whose insides were certified lay around the origin.
 TEST(Certificate, of_an_origin_within_a_shape_is_that_shapes_wherever_it_is) {

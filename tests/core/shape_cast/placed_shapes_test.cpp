@@ -5,20 +5,13 @@
 #include "core/cast/cast.h"
 #include "core/shape_cast/distance.h"
 #include "core/shape_cast/shape_cast.h"
+#include "tests/support/mapped.h"
 #include "tests/support/random.h"
 
 namespace minkray::testing {
 namespace {
 
 using V = Vec3<double>;
-
-Affine<double> moved(const V& by) {
-  return {Mat3<double>::Identity(), by};
-}
-
-Shape<double> mapped(const Shape<double>& shape, const Affine<double>& map) {
-  return Transform<double>{shape, map};
-}
 
 // The maps around a shape were left out of its place in the world.
 TEST(Distance, of_balls_that_are_scaled_and_moved_has_its_closed_form) {

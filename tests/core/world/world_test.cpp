@@ -3,22 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
+#include "tests/support/scattered_world.h"
 
 namespace minkray {
 namespace {
 
-struct Random {
-  std::mt19937 generator{5};
-  double within(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(generator);
-  }
-  Vec3<double> point(double size) {
-    return {within(-size, size), within(-size, size), within(-size, size)};
-  }
-};
+using testing::Scatter;
 
-Instances scattered_shapes(int count, Random& random) {
+Instances scattered_with_disks(int count, Scatter& random) {
   const std::vector<Shape<double>> kinds = {
       Sphere<double>{0.7},
       Rounded<double>{0.1, Shape<double>(Box<double>{{0.6, 0.5, 0.3}})},
@@ -27,12 +19,8 @@ Instances scattered_shapes(int count, Random& random) {
       Disk<double>{0.8},
       Triangle<double>{{Vec3<double>(0, 0, 0), Vec3<double>(1, 0, 0), Vec3<double>(0, 1, 0)}}};
   Instances shapes;
-  for (int i = 0; i < count; ++i) {
-    const Vec3<double> axis = random.point(1);
-    const Mat3<double> turn = rotation_matrix(axis.x(), axis.y(), axis.z(), random.within(-1, 1));
-    shapes.add(kinds[static_cast<std::size_t>(i) % kinds.size()],
-               Affine<double>{turn, random.point(6)});
-  }
+  for (int i = 0; i < count; ++i)
+    shapes.add(kinds[static_cast<std::size_t>(i) % kinds.size()], random.pose(6));
   return shapes;
 }
 
@@ -43,8 +31,8 @@ Instances only(const Shape<double>& shape) {
 }
 
 TEST(World, closest_hit_is_the_nearest_of_all_instances) {
-  Random random;
-  const World world(scattered_shapes(110, random));
+  Scatter random;
+  const World world(scattered_with_disks(110, random));
   int hits = 0, rays = 0;
   for (int i = 0; i < 2000; ++i, ++rays) {
     const Vec3<double> origin = random.point(12);
@@ -68,8 +56,8 @@ TEST(World, closest_hit_is_the_nearest_of_all_instances) {
 }
 
 TEST(World, occlusion_agrees_with_the_closest_hit) {
-  Random random;
-  const World world(scattered_shapes(110, random));
+  Scatter random;
+  const World world(scattered_with_disks(110, random));
   QueryCounts counts;
   for (int i = 0; i < 2000; ++i) {
     const Vec3<double> origin = random.point(12);

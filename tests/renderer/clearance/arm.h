@@ -90,6 +90,16 @@ inline std::array<Rod, 4> rods_at(Long shoulder, Long elbow, Long wrist) {
           Rod{{hand(0.1L * z), hand(0.1L * z)}, 0.07L}};
 }
 
+/// Distance of the three links that move from a ball and from the ground.
+inline Long distance_to_arm(const std::array<Rod, 4>& rods, const Rod& ball, Long ground) {
+  Long best = 1e30L;
+  for (std::size_t i = 1; i < 4; ++i) {
+    best = std::min(best, distance(rods[i], ball));
+    for (const Vector& end : rods[i].ends) best = std::min(best, end.z() - rods[i].radius - ground);
+  }
+  return best;
+}
+
 struct RandomPath {
   std::vector<std::array<double, 3>> values;
   std::vector<JointRow> rows;

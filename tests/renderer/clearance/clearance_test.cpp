@@ -19,7 +19,6 @@ using testing::Long;
 using testing::RandomPath;
 using testing::Rod;
 using testing::rods_at;
-using testing::Vector;
 
 /// A ball next to the arm and the ground below it.
 struct Around {
@@ -42,14 +41,8 @@ struct Around {
   }
   /// To the arm, and of the arm's links that no joint connects.
   Long least(const std::array<Rod, 4>& rods) const {
-    Long best = std::min(
-        {distance(rods[0], rods[2]), distance(rods[0], rods[3]), distance(rods[1], rods[3])});
-    for (std::size_t i = 1; i < 4; ++i) {
-      best = std::min(best, distance(rods[i], ball));
-      for (const Vector& end : rods[i].ends)
-        best = std::min(best, end.z() - rods[i].radius - ground);
-    }
-    return best;
+    return std::min({distance(rods[0], rods[2]), distance(rods[0], rods[3]),
+                     distance(rods[1], rods[3]), testing::distance_to_arm(rods, ball, ground)});
   }
 };
 

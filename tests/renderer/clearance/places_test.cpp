@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/field/distance_field.h"
+#include "tests/core/pair_distance/random_numbers.h"
 #include "tests/renderer/clearance/arm.h"
 #include "tests/support/number_of_cases.h"
 
@@ -29,21 +30,9 @@ Vec3<double> coarse(const Vec3<double>& v) {
   return (v * 0x1p20).array().round().matrix() / 0x1p20;
 }
 
-class RandomPlaces {
- public:
-  explicit RandomPlaces(unsigned seed) : engine_(seed) {}
-  double in(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine_);
-  }
-  Vec3<double> direction() {
-    std::normal_distribution<double> normal;
-    return Vec3<double>(normal(engine_), normal(engine_), normal(engine_)).normalized();
-  }
+struct RandomPlaces : testing::RandomNumbers {
+  using RandomNumbers::RandomNumbers;
   Vec3<double> at(double distance) { return (distance * direction()).array().round().matrix(); }
-  std::mt19937& engine() { return engine_; }
-
- private:
-  std::mt19937 engine_;
 };
 
 Scene scene_of_balls(const std::vector<std::pair<Vec3<double>, double>>& balls) {
@@ -130,13 +119,7 @@ struct RobotAround {
     plane.pose.translation = way + Vec3<double>(0, 0, height);
   }
   Long least(const std::array<Rod, 4>& rods) const {
-    Long best = 1e30L;
-    for (std::size_t i = 1; i < 4; ++i) {
-      best = std::min(best, distance(rods[i], ball));
-      for (const Vector& end : rods[i].ends)
-        best = std::min(best, end.z() - rods[i].radius - ground);
-    }
-    return best;
+    return testing::distance_to_arm(rods, ball, ground);
   }
 };
 

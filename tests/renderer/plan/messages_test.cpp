@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <functional>
 #include <numbers>
 
 #include "renderer/base/errors.h"
@@ -106,55 +107,49 @@ TEST(Trajectories, a_request_goes_straight_from_its_start_to_its_goal) {
   EXPECT_EQ(path.values[1][1][0], 0.25);
 }
 
+/// An input, and what its message must contain.
+using Told = std::pair<std::string, std::string>;
+
+void expect_told(const std::function<std::string(const std::string&)>& message_of,
+                 const std::vector<Told>& table) {
+  for (const auto& [input, part] : table)
+    EXPECT_NE(message_of(input).find(part), std::string::npos) << part << " in\n"
+                                                               << message_of(input) << "\nof\n"
+                                                               << input;
+}
+
 TEST(Trajectories, mistakes_have_their_line_and_key) {
-  const std::string unknown = mistakes_of_plan(
-      "joint_trajectory:\n  joint_names: [turn, lift]\n  points:\n    - positions: [0, 1]\n");
-  EXPECT_NE(unknown.find("plan.yaml: line 2: /joint_trajectory/joint_names/1: there is no joint "
-                         "\"lift\""),
-            std::string::npos)
-      << unknown;
-  const std::string short_row = mistakes_of_plan(
-      "joint_names: [turn, open]\npoints:\n  - positions: [0, 1]\n  - positions: [0]\n");
-  EXPECT_NE(short_row.find("plan.yaml: line 4: /points/1/positions: must have a number for each of "
-                           "the 2 joints (got 1)"),
-            std::string::npos)
-      << short_row;
-  const std::string no_number =
-      mistakes_of_plan("joint_names: [turn]\npoints:\n  - positions: [.nan]\n");
-  EXPECT_NE(no_number.find("plan.yaml: line 3: /points/0/positions/0: "), std::string::npos)
-      << no_number;
-  const std::string backwards = mistakes_of_plan(
-      "joint_names: [turn]\npoints:\n  - {positions: [0], time_from_start: 2}\n"
-      "  - {positions: [0], time_from_start: 1}\n");
-  EXPECT_NE(backwards.find("times must increase"), std::string::npos) << backwards;
-  const std::string broken = mistakes_of_plan("joint_names: [turn\npoints: 3\n");
-  EXPECT_NE(broken.find("not valid YAML"), std::string::npos) << broken;
-  const std::string twice = mistakes_of_plan("points: 1\npoints: 2\n");
-  EXPECT_NE(twice.find("line 2: duplicate key \"points\""), std::string::npos) << twice;
-  const std::string else_where = mistakes_of_plan("hello: world\n");
-  EXPECT_NE(else_where.find("must be a trajectory"), std::string::npos) << else_where;
+  expect_told(
+      mistakes_of_plan,
+      {{"joint_trajectory:\n  joint_names: [turn, lift]\n  points:\n    - positions: [0, 1]\n",
+        "plan.yaml: line 2: /joint_trajectory/joint_names/1: there is no joint \"lift\""},
+       {"joint_names: [turn, open]\npoints:\n  - positions: [0, 1]\n  - positions: [0]\n",
+        "plan.yaml: line 4: /points/1/positions: must have a number for each of the 2 joints "
+        "(got 1)"},
+       {"joint_names: [turn]\npoints:\n  - positions: [.nan]\n",
+        "plan.yaml: line 3: /points/0/positions/0: "},
+       {"joint_names: [turn]\npoints:\n  - {positions: [0], time_from_start: 2}\n"
+        "  - {positions: [0], time_from_start: 1}\n",
+        "times must increase"},
+       {"joint_names: [turn\npoints: 3\n", "not valid YAML"},
+       {"points: 1\npoints: 2\n", "line 2: duplicate key \"points\""},
+       {"hello: world\n", "must be a trajectory"}});
 }
 
 /// "velocites" read as no velocities, and a cubic as a straight line.
 TEST(Trajectories, misspelt_keys_are_mistakes_and_unknown_ones_are_not) {
   const std::string begin = "joint_names: [turn]\npoints:\n";
-  const std::string required = mistakes_of_plan(begin + "  - postions: [0]\n");
-  EXPECT_NE(required.find("plan.yaml: line 3: /points/0/postions: unknown key (did you mean "
-                          "\"positions\"?)"),
-            std::string::npos)
-      << required;
-  const std::string optional = mistakes_of_plan(begin + "  - positions: [0]\n    velocites: [1]\n");
-  EXPECT_NE(optional.find("plan.yaml: line 4: /points/0/velocites: unknown key (did you mean "
-                          "\"velocities\"?)"),
-            std::string::npos)
-      << optional;
-  EXPECT_NE(mistakes_of_plan("joint_trajctory: {joint_names: [turn], points: []}\n")
-                .find("did you mean \"joint_trajectory\"?"),
-            std::string::npos);
-  EXPECT_NE(mistakes_of_plan(R"({"start_sate": {}, "joint_trajectory": {"joint_names": ["turn"],
-      "points": [{"positions": [0]}]}})")
-                .find("line 1: /start_sate: unknown key"),
-            std::string::npos);
+  expect_told(
+      mistakes_of_plan,
+      {{begin + "  - postions: [0]\n",
+        "plan.yaml: line 3: /points/0/postions: unknown key (did you mean \"positions\"?)"},
+       {begin + "  - positions: [0]\n    velocites: [1]\n",
+        "plan.yaml: line 4: /points/0/velocites: unknown key (did you mean \"velocities\"?)"},
+       {"joint_trajctory: {joint_names: [turn], points: []}\n",
+        "did you mean \"joint_trajectory\"?"},
+       {R"({"start_sate": {}, "joint_trajectory": {"joint_names": ["turn"],
+      "points": [{"positions": [0]}]}})",
+        "line 1: /start_sate: unknown key"}});
   EXPECT_EQ(mistakes_of_plan(begin + "  - {positions: [0], effort: [], jerk_limit: 3}\n"
                                      "vendor: {name: x}\n"),
             "");
@@ -341,35 +336,25 @@ TEST(PlanningScenes, what_is_wrong_is_told_with_its_line) {
     return mistakes.text();
   };
   const std::string world = "world:\n  collision_objects:\n    - id: x\n      primitives:\n";
-  EXPECT_NE(wrong(world + "        - {type: bxo, dimensions: [1, 1, 1]}\n")
-                .find("scene.yaml: line 5: /world/collision_objects/0/primitives/0/type: must be "
-                      "box (1)"),
-            std::string::npos);
-  EXPECT_NE(wrong(world + "        - {type: box, dimensions: [1, 1]}\n")
-                .find("line 5: /world/collision_objects/0/primitives/0/dimensions: "),
-            std::string::npos);
-  EXPECT_NE(wrong("world: {collision_objects: [{id: x, header: {frame_id: nowhere}, primitives: "
-                  "[{type: sphere, dimensions: [1]}]}]}")
-                .find("no frame is named \"nowhere\""),
-            std::string::npos);
-  EXPECT_NE(wrong("world: {octomap: {octomap: {data: [1, 2]}}}").find("octomaps are not read"),
-            std::string::npos);
-  const std::string carried =
-      "robot_state: {attached_collision_objects: [{link_name: arm, object: "
-      "{id: left, primitives: [{type: sphere, dimensions: [1]}]}}]}";
-  EXPECT_NE(wrong(carried).find("must not be the name of a link"), std::string::npos);
-  EXPECT_NE(wrong("world: {collision_objects: [{id: x, primitives: [{type: sphere, dimensions: "
-                  "[1]}], primitive_pose: []}]}")
-                .find("did you mean \"primitive_poses\"?"),
-            std::string::npos);
-  // 0 in ROS 1, which is half a turn, and 1 in ROS 2.
-  EXPECT_NE(wrong("world: {collision_objects: [{id: x, pose: {orientation: {z: 0.1}}, primitives: "
-                  "[{type: sphere, dimensions: [1]}]}]}")
-                .find("/pose/orientation/w: missing"),
-            std::string::npos);
-  EXPECT_NE(wrong("allowed_collision_matrix: {entry_names: [a, b], entry_values: [[true]]}")
-                .find("must have a row for each of the 2 names"),
-            std::string::npos);
+  const std::string ball = "primitives: [{type: sphere, dimensions: [1]}]";
+  expect_told(
+      wrong, {{world + "        - {type: bxo, dimensions: [1, 1, 1]}\n",
+               "scene.yaml: line 5: /world/collision_objects/0/primitives/0/type: must be box (1)"},
+              {world + "        - {type: box, dimensions: [1, 1]}\n",
+               "line 5: /world/collision_objects/0/primitives/0/dimensions: "},
+              {"world: {collision_objects: [{id: x, header: {frame_id: nowhere}, " + ball + "}]}",
+               "no frame is named \"nowhere\""},
+              {"world: {octomap: {octomap: {data: [1, 2]}}}", "octomaps are not read"},
+              {"robot_state: {attached_collision_objects: [{link_name: arm, object: {id: left, " +
+                   ball + "}}]}",
+               "must not be the name of a link"},
+              {"world: {collision_objects: [{id: x, " + ball + ", primitive_pose: []}]}",
+               "did you mean \"primitive_poses\"?"},
+              // 0 in ROS 1, which is half a turn, and 1 in ROS 2.
+              {"world: {collision_objects: [{id: x, pose: {orientation: {z: 0.1}}, " + ball + "}]}",
+               "/pose/orientation/w: missing"},
+              {"allowed_collision_matrix: {entry_names: [a, b], entry_values: [[true]]}",
+               "must have a row for each of the 2 names"}});
 }
 
 TEST(RobotMeaning, groups_states_and_virtual_joints) {

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Shapes under maps.
+#pragma once
+
+#include "core/shape/shape.h"
+
+namespace minkray::testing {
+
+inline Affine<double> moved(const Vec3<double>& by) {
+  return {Mat3<double>::Identity(), by};
+}
+
+inline Shape<double> mapped(const Shape<double>& shape, const Affine<double>& map) {
+  return Transform<double>{shape, map};
+}
+
+}  // namespace minkray::testing
