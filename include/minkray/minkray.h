@@ -893,11 +893,12 @@ class Scene {
 
   /// Verifies a robot's motion along a path of joint values: free at all times, or a pair that
   /// collides. `rates` (as many numbers as `path`) makes joints move as cubics; with
-  /// `accelerations` as well, as quintics. `proof` names a file for minkray-check; see
-  /// minkray_scene_verify.
+  /// `accelerations` as well, as quintics. `proof` names a file for minkray-check. Rows are at
+  /// `times`, or at 0, 1, 2, ...; see minkray_scene_verify.
   Verdict verify(const Group& robot, View<const double> path, std::size_t rows,
                  View<const double> rates = {}, double margin = 0,
-                 View<const double> accelerations = {}, Text proof = {}) const {
+                 View<const double> accelerations = {}, Text proof = {},
+                 View<const double> times = {}) const {
     constexpr const char* function = "minkray::Scene::verify";
     const std::size_t numbers = rows > 0 ? path.size() / rows : 0;
     detail::check_sizes(function, "path", path.size(), "numbers in its rows", rows * numbers);
@@ -906,6 +907,7 @@ class Scene {
     if (accelerations.size() > 0)
       detail::check_sizes(function, "accelerations", accelerations.size(), "numbers in the path",
                           path.size());
+    if (times.size() > 0) detail::check_sizes(function, "times", times.size(), "rows", rows);
     const minkray_verdict_options options = {
         sizeof options,
         0,
@@ -914,7 +916,8 @@ class Scene {
         0,
         0,
         accelerations.size() > 0 ? accelerations.data() : nullptr,
-        proof.c_str()};
+        proof.c_str(),
+        times.size() > 0 ? times.data() : nullptr};
     Verdict verdict;
     detail::check(minkray_scene_verify(handle_, robot.number(), path.data(),
                                        rates.size() > 0 ? rates.data() : nullptr, rows, numbers,

@@ -560,6 +560,8 @@ typedef struct minkray_verdict_options {
   const double* accelerations; /* or NULL; second derivatives, as many as `rates`; need `rates` */
   const char* proof;           /* or NULL; file for a proof, in the frame of the robot's pose, that
                                 * minkray-check confirms */
+  const double* times;         /* or NULL: 0, 1, 2, ...; one time per row, increasing. `rates` and
+                                * `accelerations` are derivatives with respect to time */
 } minkray_verdict_options;
 
 typedef struct minkray_verdict {
@@ -576,7 +578,7 @@ typedef struct minkray_verdict {
 } minkray_verdict;
 
 /* Verifies a robot's motion along a path as in minkray_scene_clearance. `rates` (or NULL) has as
- * many numbers as `path`: derivatives of the joint values, per row. Joints other than quaternions
+ * many numbers as `path`: derivatives of the joint values by time. Joints other than quaternions
  * then move as cubics between rows, with accelerations as quintics. Returns MINKRAY_BAD_INPUT if
  * `proof` is set but a proof is impossible; an undecided motion has no proof. */
 MINKRAY_API int minkray_scene_verify(minkray_scene scene, uint32_t group, const double* path,

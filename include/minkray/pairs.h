@@ -216,7 +216,7 @@ class ScenePairs {
   const ScenePair& operator[](std::size_t i) const { return pairs_[i]; }
   const ScenePair& front() const { return pairs_[0]; }
   const ScenePair& back() const { return pairs_[size_ - 1]; }
-  /// One per pair if NearOptions::derivative_errors asks for them, else none.
+  /// One per pair if NearOptions::derivative_errors is set, else none.
   View<PairDerivativeError> errors() { return {errors_, errors_ ? size_ : 0}; }
   View<const PairDerivativeError> errors() const { return {errors_, errors_ ? size_ : 0}; }
 

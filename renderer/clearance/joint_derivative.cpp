@@ -103,7 +103,7 @@ class MotionErrors {
   }
 
  private:
-  /// What does not move has no error, even if one is infinite.
+  /// Zero for no speed, even if the error is infinite.
   static double times(double speed, double error) { return speed > 0 ? speed * error : 0; }
 
   const LinkDerivative& link_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // C interface: verdicts on a robot's motion.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -15,7 +16,7 @@
 namespace minkray {
 namespace {
 
-/// First or second derivatives of the joints' values with respect to the row, in the order of the
+/// First or second derivatives of the joints' values with respect to time, in the order of the
 /// path's joints.
 std::vector<std::vector<std::vector<double>>> derivatives_of(const HeldScene::Group& robot,
                                                              const JointPath& path,
@@ -107,9 +108,28 @@ void write_proof(const std::string& file, const MotionVerdict& found, const Join
   write_file(file, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
 }
 
+void set_times(std::vector<JointRow>& rows, const double* times) {
+  check_finite(times, rows.size(), "options.times");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (i > 0 && !(times[i] > times[i - 1]))
+      wrong_use("options.times[" + std::to_string(i) + "]: must be greater than " +
+                std::to_string(times[i - 1]) + " (got " + std::to_string(times[i]) + ")");
+    rows[i].time = times[i];
+  }
+}
+
+/// The position of a time between the rows: 2.25 is a quarter of the way from row 2 to row 3.
+double row_of(double time, const std::vector<double>& times) {
+  if (times.size() < 2) return 0;
+  const auto next = std::upper_bound(times.begin() + 1, times.end() - 1, time);
+  const double from = *(next - 1), to = *next;
+  return static_cast<double>(next - 1 - times.begin()) + (time - from) / (to - from);
+}
+
 minkray_verdict judge(const HeldScene& held, const HeldScene::Group& robot,
                       const VerdictCall& asked) {
-  const std::vector<JointRow> read = rows_of(robot, asked.path, asked.rows, asked.numbers);
+  std::vector<JointRow> read = rows_of(robot, asked.path, asked.rows, asked.numbers);
+  if (asked.given.times) set_times(read, asked.given.times);
   const RobotAmong among(held, robot, asked.given.only_obstacles == 0);
   JointPath path = path_of(*robot.model, read);
   const double* const accelerations = asked.given.accelerations;
@@ -135,7 +155,11 @@ minkray_verdict judge(const HeldScene& held, const HeldScene::Group& robot,
   const MotionVerdict found = verdict_of(path, among.bodies, pairs, options);
   throw_if_lied(held.customs());
   if (asked.given.proof) write_proof(asked.given.proof, found, path, among, pairs, options);
-  return plain_verdict(found, pairs, among, robot.pose);
+  minkray_verdict verdict = plain_verdict(found, pairs, among, robot.pose);
+  if (asked.given.times)
+    for (double* const at : {&verdict.row, &verdict.begin, &verdict.end})
+      *at = row_of(*at, path.times);
+  return verdict;
 }
 
 }  // namespace

@@ -114,8 +114,9 @@ py::dict clearance(const Scene& scene, const Scene::Group& robot, const Doubles&
 }
 
 py::dict verify(const Scene& scene, const Scene::Group& robot, const Doubles& path,
-                const Doubles& rates, const Doubles& accelerations, double margin, double tolerance,
-                std::size_t budget, bool only_obstacles, const std::string& proof, int threads) {
+                const Doubles& rates, const Doubles& accelerations, const Doubles& times,
+                double margin, double tolerance, std::size_t budget, bool only_obstacles,
+                const std::string& proof, int threads) {
   if (path.ndim() != 2) throw py::value_error("path: must have shape (rows, joint values)");
   const bool has_rates = rates.size() > 0;
   if (has_rates && rates.size() != path.size())
@@ -123,6 +124,8 @@ py::dict verify(const Scene& scene, const Scene::Group& robot, const Doubles& pa
   const bool has_accelerations = accelerations.size() > 0;
   if (has_accelerations && accelerations.size() != path.size())
     throw py::value_error("accelerations: must have the shape of the path");
+  if (times.size() > 0 && times.size() != path.shape(0))
+    throw py::value_error("times: must be one per row");
   const minkray_verdict_options options = {sizeof options,
                                            tolerance,
                                            margin,
@@ -130,7 +133,8 @@ py::dict verify(const Scene& scene, const Scene::Group& robot, const Doubles& pa
                                            only_obstacles ? 1 : 0,
                                            threads,
                                            has_accelerations ? accelerations.data() : nullptr,
-                                           proof.empty() ? nullptr : proof.c_str()};
+                                           proof.empty() ? nullptr : proof.c_str(),
+                                           times.size() > 0 ? times.data() : nullptr};
   minkray_verdict found = {};
   int code = MINKRAY_OK;
   {

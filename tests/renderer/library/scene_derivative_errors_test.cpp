@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Bounds of the errors of derivatives of a scene's distances and of clearances, through the
-// library, beside closed forms.
+// library, compared with closed forms.
 #include <gtest/gtest.h>
 #include <minkray/minkray.h>
 
@@ -232,7 +232,7 @@ TEST_F(Arm, has_bounds_of_its_clearances_derivative) {
                       c1 = std::cos(static_cast<long double>(q[0])),
                       s2 = std::sin(static_cast<long double>(q[1])),
                       c2 = std::cos(static_cast<long double>(q[1]));
-    // In the plane of the first link: u along it; the ball is 0.125 beside.
+    // In the plane of the first link: u along it; the ball is 0.125 off it.
     const long double reach = 0.5L + q[2], u = 0.75L + reach * c2, z = -reach * s2, v = 0.125L;
     const long double x = 0.5L + c1 * u - s1 * v, y = s1 * u + c1 * v;
     const long double to[3] = {x - 1.5L, y - 1.0L, z - 0.5L};

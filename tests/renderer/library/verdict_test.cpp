@@ -45,6 +45,32 @@ TEST(LibraryVerdict, verdicts_have_proofs) {
   EXPECT_THROW(both.scene.verify(both.robot, near, 2, {}, 0, {}, nowhere), mk::Error);
 }
 
+TEST(LibraryVerdict, rates_are_by_time) {
+  BallAndPost both;
+  // From 0 to 3 in two seconds, with a speed of 4.5 at the end.
+  const std::vector<double> path = {0, 3, 3}, rates = {0, 4.5, 0}, times = {10, 12, 12.5};
+  const mk::Verdict free = both.scene.verify(both.robot, path, 3, {}, 0, {}, {}, times);
+  EXPECT_EQ(free.status, MINKRAY_MOTION_FREE);
+  EXPECT_NEAR(free.upper, 1.25, 1e-6);
+  // Then it overshoots: in half a second at 4.5, by 4/27 of 2.25.
+  const mk::Verdict past = both.scene.verify(both.robot, path, 3, rates, 0, {}, {}, times);
+  EXPECT_EQ(past.status, MINKRAY_MOTION_FREE);
+  EXPECT_NEAR(past.upper, 1.25 - 2.25 * 4 / 27, 1e-2);
+  EXPECT_NEAR(past.row, 1 + 1.0 / 3, 0.05);
+  EXPECT_GT(past.lower, 1.25 - 2.25 * 4 / 27 - 1e-2);
+  // Rows a second apart: it overshoots by 4/27 of 4.5.
+  const mk::Verdict rows = both.scene.verify(both.robot, path, 3, rates);
+  EXPECT_NEAR(rows.upper, 1.25 - 4.5 * 4 / 27, 1e-2);
+  const std::vector<double> standing = {10, 12, 12};
+  EXPECT_THROW(both.scene.verify(both.robot, path, 3, rates, 0, {}, {}, standing), mk::Error);
+  EXPECT_THROW(both.scene.verify(both.robot, path, 3, rates, 0, {}, {}, {times.data(), 2}),
+               mk::Error);
+  const std::vector<double> further = {0, 5, 5};
+  const mk::Verdict met = both.scene.verify(both.robot, further, 3, {}, 0, {}, {}, times);
+  EXPECT_EQ(met.status, MINKRAY_MOTION_COLLIDES);
+  EXPECT_NEAR(met.begin, 4.25 / 5, 2e-3);
+}
+
 /// Programs that were compiled before the options had more members.
 TEST(LibraryVerdict, options_of_verdicts_may_end_earlier) {
   BallAndPost both;

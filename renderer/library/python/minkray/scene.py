@@ -338,7 +338,7 @@ class Scene(RaysOfScene, PairsOfScene):
                                             bool(jac), bool(jac_error), threads_of(threads)))
 
     def verify(self, robot, path, rates=None, margin=0.0, tolerance=0.01, only_obstacles=False, threads=0,
-               *, budget=4000, accelerations=None, proof=None):
+               *, budget=4000, accelerations=None, proof=None, times=None):
         """Proves that a robot's motion is free of collisions at all times, or finds a collision.
 
         Parameters
@@ -348,8 +348,8 @@ class Scene(RaysOfScene, PairsOfScene):
         path : (K, J) array
             Rows of joint values in the order of `Robot.joint_names`.
         rates : (K, J) array
-            Derivatives of the joint values per row. With rates, joints move as cubics between rows;
-            without, linearly.
+            Derivatives of the joint values with respect to time. With rates, joints move as cubics
+            between rows; without, linearly.
         margin : float
             Distance that the robot must keep from obstacles.
         tolerance : float
@@ -364,6 +364,8 @@ class Scene(RaysOfScene, PairsOfScene):
             Second derivatives of the joint values (need `rates`): joints then move as quintics.
         proof : str or path
             File for a proof, which ``minkray-check`` confirms. None is written for an undecided motion.
+        times : (K,) array
+            Increasing times of the rows. Default 0, 1, 2, ...
 
         Returns
         -------
@@ -383,8 +385,16 @@ class Scene(RaysOfScene, PairsOfScene):
                 raise Error(f"{name}: must have the shape of the path, {path.shape} (got {rows.shape})")
             return rows
 
+        def moments():
+            if times is None:
+                return np.zeros(0)
+            given = array_of(times, "times")
+            if given.shape != path.shape[:1]:
+                raise Error(f"times: must have the shape {path.shape[:1]}, one per row (got {given.shape})")
+            return given
+
         return Verdict(_minkray.verify(self._ready(), robot._group, path, table(rates, "rates"),
-                                       table(accelerations, "accelerations"),
+                                       table(accelerations, "accelerations"), moments(),
                                        number_of(margin, "margin"), number_of(tolerance, "tolerance"),
                                        whole_number_of(int(budget), "budget"), bool(only_obstacles),
                                        name_of(proof, "proof") if proof is not None else b"",
