@@ -147,7 +147,7 @@ TYPED_TEST(Supports, bounds_contain_and_touch) {
 
 // Two descriptions of the same shape.
 
-Shape<double> moved(Shape<double> shape, const Mat3<double>& linear, const Vec3<double>& by) {
+Shape<double> shape_at(Shape<double> shape, const Mat3<double>& linear, const Vec3<double>& by) {
   return Transform<double>{std::move(shape), AffineMap<double>(Affine<double>{linear, by})};
 }
 
@@ -183,24 +183,24 @@ std::vector<Pair> pairs() {
        HullOf<double>{{S(Point<double>{{1, 2, 3}}), S(Point<double>{{-1, 0, 5}})}}},
       {"a capsule is a rounded segment", Capsule<double>{0.4, 1}, Rounded<double>{0.4, axis}},
       {"a tapered capsule is the hull of its balls", TaperedCapsule<double>{{0.8, 0.3}, 1},
-       HullOf<double>{{moved(Sphere<double>{0.8}, identity, P(0, 0, -1)),
-                       moved(Sphere<double>{0.3}, identity, P(0, 0, 1))}}},
+       HullOf<double>{{shape_at(Sphere<double>{0.8}, identity, P(0, 0, -1)),
+                       shape_at(Sphere<double>{0.3}, identity, P(0, 0, 1))}}},
       {"a cylinder is the sum of disk and segment", Cylinder<double>{0.6, 1},
        MinkowskiSum<double>{{S(Disk<double>{0.6}), axis}}},
       {"a cut cylinder is the hull of two ellipses",
        CutCylinder<double>{0.8, {-0.5, 1}, {0.2, -0.3}, {0.5, 0.4}},
-       HullOf<double>{{moved(Disk<double>{0.8}, leaning(0.2, -0.3), P(0, 0, -0.5)),
-                       moved(Disk<double>{0.8}, leaning(0.5, 0.4), P(0, 0, 1))}}},
+       HullOf<double>{{shape_at(Disk<double>{0.8}, leaning(0.2, -0.3), P(0, 0, -0.5)),
+                       shape_at(Disk<double>{0.8}, leaning(0.5, 0.4), P(0, 0, 1))}}},
       {"a cylinder that is cut straight is a cylinder", CutCylinder<double>{0.6, {-1, 1}},
        Cylinder<double>{0.6, 1}},
       {"a cone is a frustum without top", cone, Frustum<double>{{1, 0}, 0.7}},
       {"a frustum of equal radii is a cylinder", Frustum<double>{{0.6, 0.6}, 1},
        Cylinder<double>{0.6, 1}},
       {"a frustum is the hull of its disks", Frustum<double>{{1, 0.4}, 0.5},
-       HullOf<double>{{moved(Disk<double>{1}, identity, P(0, 0, -0.5)),
-                       moved(Disk<double>{0.4}, identity, P(0, 0, 0.5))}}},
+       HullOf<double>{{shape_at(Disk<double>{1}, identity, P(0, 0, -0.5)),
+                       shape_at(Disk<double>{0.4}, identity, P(0, 0, 0.5))}}},
       {"an ellipsoid is a stretched ball", egg,
-       moved(Sphere<double>{1}, P(1, 2, 3).asDiagonal(), P(0, 0, 0))},
+       shape_at(Sphere<double>{1}, P(1, 2, 3).asDiagonal(), P(0, 0, 0))},
       {"a superellipsoid of exponent 2 is an ellipsoid", Superellipsoid<double>{{1, 2, 3}, 2}, egg},
       {"a superellipsoid of exponent 1 is an octahedron", Superellipsoid<double>{{1, 2, 3}, 1},
        Hull<double>{PointCloud<double>(
@@ -211,17 +211,18 @@ std::vector<Pair> pairs() {
                              S(Segment<double>{{P(0, -0.5, 0), P(0, 0.5, 0)}}),
                              S(Segment<double>{{P(0, 0, -0.25), P(0, 0, 0.25)}})}}},
       {"a difference is a sum with the mirror image", MinkowskiDifference<double>{box, cone},
-       MinkowskiSum<double>{{box, moved(cone, -identity, P(0, 0, 0))}}},
+       MinkowskiSum<double>{{box, shape_at(cone, -identity, P(0, 0, 0))}}},
       {"a triangle is the hull of its corners",
        Triangle<double>{{P(0, 0, 0), P(1, 0, 0), P(0, 1, 2)}},
        Hull<double>{PointCloud<double>({P(0, 0, 0), P(1, 0, 0), P(0, 1, 2)})}},
       {"maps of a sum are sums of maps",
-       moved(MinkowskiSum<double>{{box, cone}}, 2 * turn, P(1, 2, 3)),
-       MinkowskiSum<double>{{moved(box, 2 * turn, P(1, 2, 3)), moved(cone, 2 * turn, P(0, 0, 0))}}},
-      {"maps of a hull are hulls of maps", moved(HullOf<double>{{box, cone}}, turn, P(1, 2, 3)),
-       HullOf<double>{{moved(box, turn, P(1, 2, 3)), moved(cone, turn, P(1, 2, 3))}}},
-      {"maps join", moved(moved(egg, turn, P(1, 0, 0)), 3 * turn, P(0, 1, 0)),
-       moved(egg, 3 * turn * turn, 3 * turn * P(1, 0, 0) + P(0, 1, 0))},
+       shape_at(MinkowskiSum<double>{{box, cone}}, 2 * turn, P(1, 2, 3)),
+       MinkowskiSum<double>{
+           {shape_at(box, 2 * turn, P(1, 2, 3)), shape_at(cone, 2 * turn, P(0, 0, 0))}}},
+      {"maps of a hull are hulls of maps", shape_at(HullOf<double>{{box, cone}}, turn, P(1, 2, 3)),
+       HullOf<double>{{shape_at(box, turn, P(1, 2, 3)), shape_at(cone, turn, P(1, 2, 3))}}},
+      {"maps join", shape_at(shape_at(egg, turn, P(1, 0, 0)), 3 * turn, P(0, 1, 0)),
+       shape_at(egg, 3 * turn * turn, 3 * turn * P(1, 0, 0) + P(0, 1, 0))},
   };
 }
 
