@@ -33,8 +33,9 @@ NoisyPicture noisy_picture(const Scene& scene, const World& world, const RenderO
       if (hit.cast.status != Status::hit) continue;
       surfaces.describe(world, ray.ray, ray.cone, hit, albedo, emission);
       albedos += albedo;
-      normals +=
-          surfaces.looks().normal(world, surface_hit(hit), ray.ray.at(hit.cast.t()), ray.time);
+      normals += surfaces.looks()
+                     .smooth(world, surface_hit(hit), ray.ray.at(hit.cast.t()), ray.time)
+                     .normal;
       depths += hit.cast.t();
       ++met;
     }

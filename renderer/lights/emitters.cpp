@@ -188,24 +188,54 @@ AroundBody around(const PreparedShape<double>& body) {
   return result;
 }
 
-Emitters::Emitters(const World& world, const std::vector<Colour>& radiance_of_instance)
+Emitters::Emitters(const World& world, const std::vector<Colour>& radiance_of_instance,
+                   const RadianceOfPart& radiance_of_part)
     : world_(world) {
   std::vector<LightTree::Light> lights;
   for (std::size_t i = 0; i < radiance_of_instance.size(); ++i) {
     const Colour& radiance = radiance_of_instance[i];
-    // Bodies that are unbounded or without size, and meshes, are found by chance alone.
+    if (radiance_of_part && world.instances().is_mesh(i))
+      add_mesh(static_cast<std::uint32_t>(i), radiance_of_part, lights);
+    // Bodies that are unbounded or without size are found by chance alone.
     if (!(radiance.maxCoeff() > 0) || !world.instances().has_shape(i)) continue;
     const PreparedShape<double> body = world.instances().at(i);
     if (!(body.inner_ball().radius > 0)) continue;
-    Emitter& emitter =
-        emitters_.emplace_back(Emitter{static_cast<std::uint32_t>(i), radiance, around(body), 0});
+    Emitter& emitter = emitters_.emplace_back(
+        Emitter{static_cast<std::uint32_t>(i), radiance, around(body), 0, nullptr});
     emitter.power = radiance.mean() * emitter.body.size2;
     const double radius = world.instances().half_extent(i);
     lights.push_back({emitter.body.centre, radius, emitter.power});
-    of_instance_.resize(radiance_of_instance.size(), no_emitter);
-    of_instance_[i] = static_cast<std::uint32_t>(emitters_.size() - 1);
+    number_last(radiance_of_instance.size());
   }
   if (emitters_.size() > most_weighed) tree_ = LightTree(lights);
+}
+
+void Emitters::add_mesh(std::uint32_t instance, const RadianceOfPart& radiance_of_part,
+                        std::vector<LightTree::Light>& lights) {
+  const PosedMesh& mesh = world_.instances().mesh_of(instance);
+  const auto brightness = [&](std::uint32_t part) {
+    return radiance_of_part(instance, part).mean();
+  };
+  bool shines = false;
+  for (std::uint32_t part = 0; part < mesh.mesh->size() && !shines; ++part)
+    shines = brightness(part) > 0;
+  if (!shines) return;
+  auto lamp = std::make_unique<const MeshLamp>(mesh, brightness);
+  if (lamp->none()) return;
+  AroundBody body;
+  body.centre = lamp->centre();
+  body.map = Mat3<double>::Identity();
+  body.determinant = 1;
+  body.size2 = lamp->size2();
+  lights.push_back({lamp->centre(), lamp->radius(), lamp->power()});
+  const double power = lamp->power();
+  emitters_.emplace_back(Emitter{instance, Colour::Zero(), body, power, std::move(lamp)});
+  number_last(world_.instances().size());
+}
+
+void Emitters::number_last(std::size_t instances) {
+  of_instance_.resize(instances, no_emitter);
+  of_instance_[emitters_.back().instance] = static_cast<std::uint32_t>(emitters_.size() - 1);
 }
 
 /// The point relative to the emitter, in coordinates of time 0.
@@ -234,28 +264,39 @@ std::optional<EmitterSample> Emitters::sample(const Vec3<double>& point, double 
     while (chosen + 1 < emitters_.size() && up_to[chosen] <= which * sum) ++chosen;
   }
   const Emitter& emitter = emitters_[chosen];
-  const auto seen = emitter.body.sample(seen_from(emitter, point, time), u);
+  const Vec3<double> from = seen_from(emitter, point, time);
+  EmitterHit at{emitter.instance};
+  std::optional<Vec3<double>> seen;
+  if (!emitter.mesh) {
+    seen = emitter.body.sample(from, u);
+  } else if (const auto found = emitter.mesh->sample(from, sampler.next()[0], u)) {
+    seen = found->direction;
+    at.part = found->part;
+    at.t = found->distance;
+  }
   if (!seen) return std::nullopt;
   const Vec3<double> direction = world_.instances().turned(emitter.instance, *seen, time);
-  const double density = pdf(point, time, direction, emitter.instance);
+  const double density = pdf(point, time, direction, at);
   if (!(density > 0)) return std::nullopt;
-  return EmitterSample{chosen, direction, density};
+  return EmitterSample{chosen, direction, density, at.part};
 }
 
 double Emitters::pdf(const Vec3<double>& point, double time, const Vec3<double>& direction,
-                     std::uint32_t instance) const {
-  if (of_instance_.empty() || of_instance_[instance] == no_emitter) return 0;
-  const Emitter& emitter = emitters_[of_instance_[instance]];
+                     const EmitterHit& hit) const {
+  if (of_instance_.empty() || of_instance_[hit.instance] == no_emitter) return 0;
+  const Emitter& emitter = emitters_[of_instance_[hit.instance]];
   double chance = 1;
   if (!tree_.empty()) {
-    chance = tree_.chance(point, of_instance_[instance]);
+    chance = tree_.chance(point, of_instance_[hit.instance]);
   } else if (emitters_.size() > 1) {
     double sum = 0;
     for (const Emitter& other : emitters_) sum += weight(other, point, time);
     chance = weight(emitter, point, time) / sum;
   }
-  return chance * emitter.body.pdf(seen_from(emitter, point, time),
-                                   world_.instances().unturned(instance, direction, time));
+  const Vec3<double> from = seen_from(emitter, point, time);
+  const Vec3<double> seen = world_.instances().unturned(hit.instance, direction, time);
+  return chance * (emitter.mesh ? emitter.mesh->pdf(from, seen, hit.part, hit.t)
+                                : emitter.body.pdf(from, seen));
 }
 
 }  // namespace minkray

@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Samples emissive bodies of any shape. Directions are drawn towards the ellipsoid around the body
+// Samples emissive bodies. Of shapes, directions are drawn towards the ellipsoid around the body
 // (uniformly in the cone of a unit ball, exact for balls, ellipsoids and disks) or a face of its
 // box, whichever looks smaller. The map A from the world to that frame changes solid angles by |det
-// A| / |A d|^3 for unit d. A cast decides whether a direction meets the body.
+// A| / |A d|^3 for unit d. A cast decides if a direction meets the body. Meshes are sampled by
+// triangle (mesh_lamp.h).
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "core/world/world.h"
 #include "renderer/lights/light_tree.h"
+#include "renderer/lights/mesh_lamp.h"
 #include "renderer/rays/sampler.h"
 #include "renderer/scene/materials.h"
 
@@ -39,33 +43,51 @@ AroundBody around(const PreparedShape<double>& body);
 struct EmitterSample {
   std::size_t emitter;
   Vec3<double> direction;
-  double pdf;  ///< over solid angle, with the chance of this emitter
+  double pdf;                    ///< over solid angle, with the chance of this emitter
+  std::uint32_t part = no_part;  ///< of a mesh: the triangle that must be met
+};
+
+/// A place on an emitter: of a mesh the triangle, and its distance.
+struct EmitterHit {
+  std::uint32_t instance, part = no_part;
+  double t = 0;
 };
 
 /// The instances of a world that shine.
 class Emitters {
  public:
-  /// Takes the radiance of each instance, zero for none. Refers to the world.
-  Emitters(const World& world, const std::vector<Colour>& radiance_of_instance);
+  /// Radiance of a triangle of a mesh, by instance and part.
+  using RadianceOfPart = std::function<Colour(std::uint32_t, std::uint32_t)>;
+
+  /// Takes the radiance of each instance, zero for none, and of triangles if any material shines.
+  /// Refers to the world.
+  Emitters(const World& world, const std::vector<Colour>& radiance_of_instance,
+           const RadianceOfPart& radiance_of_part);
 
   bool none() const { return emitters_.empty(); }
   std::uint32_t instance(std::size_t emitter) const { return emitters_[emitter].instance; }
+  /// Radiance of a shape; meshes have one for each part.
   const Colour& radiance(std::size_t emitter) const { return emitters_[emitter].radiance; }
 
   /// Places of the emitters at that time, while the shutter is open.
   std::optional<EmitterSample> sample(const Vec3<double>& point, double time,
                                       Sampler& sampler) const;
-  /// The density with which `sample` draws a direction that meets the instance.
+  /// The density with which `sample` draws a direction that meets the instance there.
   double pdf(const Vec3<double>& point, double time, const Vec3<double>& direction,
-             std::uint32_t instance) const;
+             const EmitterHit& hit) const;
 
  private:
   struct Emitter {
     std::uint32_t instance;
     Colour radiance;
     AroundBody body;
-    double power;  ///< brightness times size
+    double power;                          ///< brightness times size
+    std::unique_ptr<const MeshLamp> mesh;  ///< null: a shape
   };
+
+  void add_mesh(std::uint32_t instance, const RadianceOfPart& radiance_of_part,
+                std::vector<LightTree::Light>& lights);
+  void number_last(std::size_t instances);
 
   Vec3<double> seen_from(const Emitter& emitter, const Vec3<double>& point, double time) const;
   /// In proportion to the chance to draw it, as long as there are few.

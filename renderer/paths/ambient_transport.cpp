@@ -45,17 +45,19 @@ struct AmbientTransport::Wave {
 
 /// Hit of a ray with a surface.
 struct AmbientTransport::HitPoint {
-  Vec3<double> position;  ///< a little above the surface
+  Vec3<double> position;  ///< a little above the surface, on a mesh with normals the curved one
   Frame frame;
   Vec3<double> w_out;  ///< direction to the ray's origin, in the frame
   const Surface& surface;
   std::uint32_t instance;
   double time;
-  Vec3<double> normal;  ///< geometric; the frame's may be a mesh's interpolated one
+  Vec3<double> normal;   ///< geometric; the frame's may be a mesh's interpolated one
+  Vec3<double> lift;     ///< of the position, from the triangle
+  Vec3<double> horizon;  ///< scattered light comes from this side: the normal, or the mesh's own
 
   /// True if a direction above the frame's plane is above the surface, too.
-  bool is_above(const Vec3<double>& direction) const {
-    return frame.z == normal || direction.dot(normal) > 0;
+  bool is_above(const Vec3<double>& direction, bool is_mirrored = false) const {
+    return frame.z == normal || direction.dot(is_mirrored ? normal : horizon) > 0;
   }
 };
 
@@ -129,20 +131,24 @@ AmbientTransport::HitPoint AmbientTransport::hit_point(const TracedRay& ray,
   const Vec3<double> on_surface = ray.ray.at(t);
   const double offset = rounding_at(world_, hit.instance, on_surface, t);
   const Vec3<double> normal = hit.cast.normal;
-  const Frame frame(looks_.has_normals(hit.instance)
-                        ? seen_normal(looks_.normal(world_, surface_hit(hit), on_surface, ray.time),
-                                      ray.ray.direction, false)
-                        : normal);
+  SmoothPoint smooth{normal};
+  if (looks_.has_normals(hit.instance)) {
+    smooth = looks_.smooth(world_, surface_hit(hit), on_surface, ray.time);
+    smooth.normal = seen_normal(smooth.normal, ray.ray.direction, false);
+  }
+  const Frame frame(smooth.normal);
   Vec3<double> w_out = frame.to_local(-ray.ray.direction);
   // A grazing normal may be rounded to the far side.
   w_out.z() = std::max(w_out.z(), std::numeric_limits<double>::epsilon());
-  return {on_surface + offset * normal,
+  return {on_surface + offset * normal + smooth.lift,
           frame,
           w_out,
           surfaces_[surface_of(hit)],
           hit.instance,
           ray.time,
-          normal};
+          normal,
+          smooth.lift,
+          smooth.is_curved ? smooth.normal : normal};
 }
 
 /// Adds to each ray's radiance what lights send straight to where it met a surface. Nothing for
@@ -251,8 +257,10 @@ void AmbientTransport::add_mirrored(std::span<TracedRay> rays, const HitPoints& 
     const SurfaceSample sample = point.surface.coat()->sample(point.w_out, rays[i].sampler.next());
     if (!(sample.weight.array() > 0).any()) continue;
     const Vec3<double> direction = unit(point.frame.to_world(sample.w_in));
-    if (!point.is_above(direction)) continue;
-    wave.add(i, behind(point, direction, rays[i].sampler), sample.weight);
+    if (!point.is_above(direction, true)) continue;
+    TracedRay mirrored = behind(point, direction, rays[i].sampler);
+    mirrored.ray.origin -= point.lift;
+    wave.add(i, mirrored, sample.weight);
   }
   if (path.mirrors >= options_.mirrors) {
     for (TracedRay& ray : wave.rays) ray.radiance = lights_.environment(ray.ray.direction);

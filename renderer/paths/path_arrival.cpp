@@ -88,11 +88,14 @@ void PathTransport::Wave::arrive(std::size_t i) {
     return material.bsdf->has_grain() ? Frame(normal, in_world(of_.surfaces_.axis(at.instance)))
                                       : Frame(normal);
   };
-  Vec3<double> smooth = at.normal;
-  if (of_.surfaces_.looks().has_normals(at.instance))
-    smooth = seen_normal(of_.surfaces_.looks().normal(of_.world_, hit, position, path.time),
-                         path.ray.direction, at.leaves);
-  Frame frame = frame_of(smooth);
+  SmoothPoint smooth{at.normal};
+  if (of_.surfaces_.looks().has_normals(at.instance)) {
+    smooth = of_.surfaces_.looks().smooth(of_.world_, hit, position, path.time);
+    smooth.normal = seen_normal(smooth.normal, path.ray.direction, at.leaves);
+    // Light that goes through keeps to the triangles.
+    if (material.bsdf->lets_through()) smooth = {smooth.normal};
+  }
+  Frame frame = frame_of(smooth.normal);
   if (material.relief.any()) {
     const Frame bent = frame_of(in_world(of_.surfaces_.relief_normal_at(at.instance, place)));
     // A surface seen from behind its bent normal keeps its own normal.
@@ -104,7 +107,8 @@ void PathTransport::Wave::arrive(std::size_t i) {
   double& z = shading.w_out.z();
   z = at.leaves ? std::min(z, -least) : std::max(z, least);
   points_[i].emplace(Point{position, rounding_at(of_.world_, at.instance, position, at.t),
-                           at.normal, frame, shading, material.bsdf.get(), at.instance,
+                           at.normal, smooth.lift, smooth.is_curved ? smooth.normal : at.normal,
+                           frame, shading, material.bsdf.get(), at.instance,
                            at.leaves ? beyond : path.inside, at.leaves ? path.inside : beyond,
                            place, frame.z != at.normal});
   if (of_.surfaces_.has_textures()) points_[i]->shading.place = &points_[i]->place;
@@ -145,8 +149,8 @@ void PathTransport::Wave::add_emission(Path& path, const Boundary& at,
   if (!(material.radiance.maxCoeff() > 0)) return;
   double part = 1;
   if (!path.is_sharp && path.is_straight)
-    part =
-        share(path.pdf, of_.emitters_.pdf(path.from, path.time, path.ray.direction, at.instance));
+    part = share(path.pdf, of_.emitters_.pdf(path.from, path.time, path.ray.direction,
+                                             {at.instance, at.part, at.t}));
   gather(path, part * path.throughput.cwiseProduct(material.radiance), path.depth);
 }
 

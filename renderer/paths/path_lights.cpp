@@ -28,15 +28,15 @@ void PathTransport::Wave::ask_for(const Draw& draw, const Part& part) {
 
 void PathTransport::Wave::ask_light(std::size_t light) {
   ask_for([&](const Point& point,
-              Sampler& sampler) { return of_.lights_.sample(light, point.position, sampler); },
+              Sampler& sampler) { return of_.lights_.sample(light, point.lit_at(), sampler); },
           [](const Point&, const Vec3<double>&, const LightSample&) { return 1.0; });
 }
 
 void PathTransport::Wave::ask_sky(const SkySource& sky) {
   if (!sky.is_asked()) return;
-  ask_for([&](const Point& point, Sampler& sampler) { return sky.sample(point.position, sampler); },
+  ask_for([&](const Point& point, Sampler& sampler) { return sky.sample(point.lit_at(), sampler); },
           [&](const Point& point, const Vec3<double>& w, const LightSample& sample) {
-            const double density = sky.pdf(point.position, sample.direction);
+            const double density = sky.pdf(point.lit_at(), sample.direction);
             return density > 0 ? share(density, point.bsdf->pdf(point.shading, w)) : 0.0;
           });
 }
@@ -54,15 +54,18 @@ void PathTransport::Wave::ask_emitters() {
     if (points_[i]->bsdf->is_sharp()) continue;
     const Point& point = *points_[i];
     Path& path = paths_[i];
-    const auto sample = of_.emitters_.sample(point.position, path.time, path.sampler);
+    const auto sample = of_.emitters_.sample(point.lit_at(), path.time, path.sampler);
     if (!sample) continue;
     const Vec3<double> w = point.frame.to_local(sample->direction);
     if (!point.is_on_side(w, sample->direction)) continue;
     const Colour reflected = point.bsdf->eval(point.shading, w);
     if (!(reflected.maxCoeff() > 0)) continue;
     const double part = share(sample->pdf, point.bsdf->pdf(point.shading, w)) / sample->pdf;
-    const Arriving light{i, part * of_.emitters_.radiance(sample->emitter).cwiseProduct(reflected),
-                         of_.emitters_.instance(sample->emitter)};
+    const std::uint32_t lamp = of_.emitters_.instance(sample->emitter);
+    const Colour& radiance = sample->part == no_part
+                                 ? of_.emitters_.radiance(sample->emitter)
+                                 : of_.surfaces_.of(lamp, sample->part).radiance;
+    const Arriving light{i, part * radiance.cwiseProduct(reflected), lamp, sample->part};
     const WorldRay ray{point.ray(w, sample->direction), point.instance, path.time, shadow_rays};
     if (point.inside(w).none())
       shadows_.add(ray, light);
@@ -73,14 +76,15 @@ void PathTransport::Wave::ask_emitters() {
   of_.casts_.find_hits([](std::size_t) { return RayKind::shadow; }, shadows_.rays, hits_,
                        counts_.work);
   for (std::size_t k = 0; k < hits_.size(); ++k)
-    if (hits_[k].instance == shadows_.arriving[k].emitter && hits_[k].cast.status == Status::hit)
+    if (shadows_.arriving[k].is_from(hits_[k].instance, hits_[k].part) &&
+        hits_[k].cast.status == Status::hit)
       add(shadows_.arriving[k]);
 }
 
 void PathTransport::Wave::ask_within(const WorldRay& ray, const Inside& inside, Arriving light) {
   ++counts_.shadow;
   const Boundary met = next_boundary(of_.world_, ray, inside, counts_.work);
-  if (met.instance != light.emitter || met.leaves || met.is_within || met.is_lost) return;
+  if (!light.is_from(met.instance, met.part) || met.leaves || met.is_within || met.is_lost) return;
   light.light.array() *= left_after(medium(inside), met.t).array();
   add(light);
 }

@@ -35,22 +35,33 @@ struct PathTransport::Path {
 struct PathTransport::Point {
   Vec3<double> position;
   double rounding;
-  Vec3<double> normal;  ///< outward; the frame's may be bent by a relief
+  Vec3<double> normal;   ///< outward; the frame's may be bent by a relief
+  Vec3<double> lift;     ///< to where scattered light arrives: on a mesh with normals
+  Vec3<double> horizon;  ///< scattered light comes from this side: the normal, or the mesh's own
   Frame frame;
   Shading shading;
   const Bsdf* bsdf;
   std::uint32_t instance;
   Inside above, below;  ///< bodies that contain the places just above and below the surface
   TexturePoint place;   ///< place that `shading` refers to
-  bool is_bent;         ///< by a relief
+  bool is_bent;         ///< the frame, from the normal
 
-  /// A ray that goes from here; what holds it is `inside(w)`.
-  Ray<double> ray(const Vec3<double>& w, const Vec3<double>& direction) const {
-    return {w.z() > 0 ? Vec3<double>(position + rounding * normal) : position, direction};
+  /// Place for which light is sampled.
+  Vec3<double> lit_at() const { return position + lift; }
+  /// A ray that goes from here; what holds it is `inside(w)`. Mirrored rays leave the triangle
+  /// itself.
+  Ray<double> ray(const Vec3<double>& w, const Vec3<double>& direction,
+                  bool is_sharp = false) const {
+    if (!(w.z() > 0)) return {position, direction};
+    const Vec3<double> above = position + rounding * normal;
+    return {is_sharp ? above : Vec3<double>(above + lift), direction};
   }
   /// True if the direction is on the same side of the surface and of its relief.
-  bool is_on_side(const Vec3<double>& w, const Vec3<double>& direction) const {
-    return !is_bent || (w.z() > 0) == (direction.dot(normal) > 0);
+  bool is_on_side(const Vec3<double>& w, const Vec3<double>& direction,
+                  bool is_sharp = false) const {
+    if (!is_bent) return true;
+    const bool is_above = w.z() > 0;
+    return is_above == (direction.dot(is_above && !is_sharp ? horizon : normal) > 0);
   }
   const Inside& inside(const Vec3<double>& w) const { return w.z() > 0 ? above : below; }
 };
@@ -60,6 +71,11 @@ struct PathTransport::Arriving {
   std::size_t path;
   Colour light;
   std::uint32_t emitter = no_instance;  ///< that must be met
+  std::uint32_t part = no_part;         ///< of a mesh, as well
+
+  bool is_from(std::uint32_t instance, std::uint32_t triangle) const {
+    return instance == emitter && (part == no_part || triangle == part);
+  }
 };
 
 /// Shadow rays, traced together. In whatever order they are traced, a path's sum is the same: each

@@ -92,14 +92,14 @@ void PathTransport::Wave::scatter(Path& path, const Point& point) {
   }
   path.throughput = path.throughput.cwiseProduct(sample->weight);
   const Vec3<double> direction = unit(point.frame.to_world(sample->w_in));
-  if (!point.is_on_side(sample->w_in, direction)) {
+  if (!point.is_on_side(sample->w_in, direction, sample->is_sharp)) {
     path.goes_on = false;
     return;
   }
-  path.ray = point.ray(sample->w_in, direction);
+  path.ray = point.ray(sample->w_in, direction, sample->is_sharp);
   path.inside = point.inside(sample->w_in);
   path.left = point.instance;
-  path.from = point.position;
+  path.from = point.lit_at();
   path.is_sharp = sample->is_sharp;
   path.only_sharp = path.only_sharp && sample->is_sharp;
   path.is_straight = true;
@@ -113,13 +113,20 @@ void PathTransport::Wave::scatter(Path& path, const Point& point) {
   path.throughput /= chance;
 }
 
+Emitters::RadianceOfPart PathTransport::radiance_of_part(const SceneSurfaces& surfaces) {
+  if (!surfaces.has_lamps()) return {};
+  return [&](std::uint32_t instance, std::uint32_t part) {
+    return surfaces.of(instance, part).radiance;
+  };
+}
+
 PathTransport::PathTransport(const Scene& scene, const World& world,
                              const IntegratorOptions& options)
     : world_(world),
       casts_(world, options),
       options_(options),
       surfaces_(scene),
-      emitters_(world, surfaces_.radiances()),
+      emitters_(world, surfaces_.radiances(), radiance_of_part(surfaces_)),
       lights_(scene.lights),
       background_(scene.background.zenith, scene.background.nadir),
       background_is_sky_(scene.background_is_sky) {

@@ -29,6 +29,7 @@ class PathTransport final : public LightTransport {
   struct ShadowRays;
   class Wave;
 
+  static Emitters::RadianceOfPart radiance_of_part(const SceneSurfaces& surfaces);
   bool is_flat_sheet(std::uint32_t instance) const {
     return !is_flat_sheet_.empty() && is_flat_sheet_[instance];
   }

@@ -58,6 +58,14 @@ PosedMesh posed_at(const Object& body, double time) {
 
 }  // namespace
 
+namespace {
+
+bool is_for_no_ray(const Object& object) {
+  return object.visible_to == 0;
+}
+
+}  // namespace
+
 MovingScene::MovingScene(const Scene& scene) : scene_(scene) {
   Instances instances;
   instances.reserve(instance_count(scene));
@@ -81,6 +89,10 @@ MovingScene::MovingScene(const Scene& scene) : scene_(scene) {
   if (has_movers)
     for (std::size_t i = object_of_still_.size(); i < instances.size(); ++i)
       object_of_still_.push_back(static_cast<std::uint32_t>(i + movers_.size()));
+  // Sensors see what a picture hides, but not what no ray meets: robots' parts of alpha 0.
+  for (std::size_t i = 0; i < scene.objects.size(); ++i)
+    if (is_for_no_ray(scene.objects[i]) && !scene.objects[i].motion)
+      instances.show_to(place_[i], 0);
   still_ = World(std::move(instances));
 }
 
@@ -88,6 +100,7 @@ SceneWhile::SceneWhile(const MovingScene& scene, double begin, double end) : sce
   std::vector<Bounds<float>> boxes;
   for (std::size_t i = 0; i < scene.movers_.size(); ++i) {
     const MovingScene::Mover& mover = scene.movers_[i];
+    if (is_for_no_ray(scene.scene_.objects[mover.object])) continue;
     if (!mover.definition) {
       shapeless_.push_back(static_cast<std::uint32_t>(i));
       continue;

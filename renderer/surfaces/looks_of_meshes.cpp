@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/surfaces/looks_of_meshes.h"
 
+#include <cmath>
+
 namespace minkray {
+namespace {
+
+/// Normals that lean by more than 60 degrees are those of no surface near the triangle: light from
+/// behind such a triangle does not reach its front.
+constexpr double least_curved_cosine = 0.5;
+
+}  // namespace
 
 LooksOfMeshes::LooksOfMeshes(const Scene& scene) {
   for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -27,17 +36,27 @@ MeshPoint LooksOfMeshes::at(const SurfaceHit& hit, const Vec3<double>& point) co
   return mesh_point(*look->mesh, *look->of->attributes, hit.part, point);
 }
 
-Vec3<double> LooksOfMeshes::normal(const World& world, const SurfaceHit& hit,
-                                   const Vec3<double>& point, double time) const {
-  if (!has_normals(hit.instance)) return hit.normal;
+SmoothPoint LooksOfMeshes::smooth(const World& world, const SurfaceHit& hit,
+                                  const Vec3<double>& point, double time) const {
+  if (!has_normals(hit.instance)) return {hit.normal};
   const Instances& instances = world.instances();
-  const Affine<double>& to_mesh = looks_[hit.instance].to_mesh;
-  const MeshPoint found = at(hit, to_mesh(instances.seen_by(hit.instance, point, time)));
-  if (found.normal.isZero(0)) return hit.normal;
+  const Look& look = looks_[hit.instance];
+  const Vec3<double> at_rest = look.to_mesh(instances.seen_by(hit.instance, point, time));
+  const MeshPoint found = at(hit, at_rest);
+  if (found.normal.isZero(0)) return {hit.normal};
+  const Mat3<double>& to_mesh = look.to_mesh.linear;
   // Normals go by the transposed inverse of the map.
   const Vec3<double> normal =
-      instances.turned(hit.instance, unit<double>(to_mesh.linear.transpose() * found.normal), time);
-  return normal.dot(hit.normal) < 0 ? Vec3<double>(-normal) : normal;
+      instances.turned(hit.instance, unit<double>(to_mesh.transpose() * found.normal), time);
+  const double cosine = normal.dot(hit.normal);
+  const bool is_back = cosine < 0;
+  SmoothPoint smooth{is_back ? Vec3<double>(-normal) : normal};
+  smooth.is_curved = std::abs(cosine) >= least_curved_cosine;
+  if (smooth.is_curved)
+    smooth.lift = instances.turned(
+        hit.instance,
+        way_to_smooth(*look.mesh, *look.of->attributes, hit.part, at_rest, to_mesh, is_back), time);
+  return smooth;
 }
 
 }  // namespace minkray

@@ -21,6 +21,13 @@ inline SurfaceHit surface_hit(const WorldHit& hit) {
   return {hit.instance, hit.part, hit.cast.normal};
 }
 
+/// A point of a surface as it is shaded.
+struct SmoothPoint {
+  Vec3<double> normal;                       ///< in the world, on the side of the hit's
+  Vec3<double> lift = Vec3<double>::Zero();  ///< from the triangle to the curved surface
+  bool is_curved = false;  ///< light comes from all directions above the normal's plane
+};
+
 /// Shares the scene's meshes and attributes.
 class LooksOfMeshes {
  public:
@@ -35,9 +42,10 @@ class LooksOfMeshes {
   std::uint32_t material(std::uint32_t instance, std::uint32_t part, std::uint32_t otherwise) const;
   /// Attributes at a point in the mesh's frame; none if the instance has no look.
   MeshPoint at(const SurfaceHit& hit, const Vec3<double>& point) const;
-  /// The interpolated normal in the world, on the side of the hit's; the hit's where there is none.
-  Vec3<double> normal(const World& world, const SurfaceHit& hit, const Vec3<double>& point,
-                      double time) const;
+  /// The interpolated normal, and the curved surface where the normal is near the hit's; the hit's
+  /// where there is none.
+  SmoothPoint smooth(const World& world, const SurfaceHit& hit, const Vec3<double>& point,
+                     double time) const;
 
  private:
   struct Look {

@@ -75,6 +75,23 @@ MeshPoint mesh_point(const TriangleMesh& mesh, const MeshAttributes& attributes,
   return found;
 }
 
+Vec3<double> way_to_smooth(const TriangleMesh& mesh, const MeshAttributes& attributes,
+                           std::uint32_t triangle, const Vec3<double>& point,
+                           const Mat3<double>& to_mesh, bool is_back) {
+  Vec3<double> way = Vec3<double>::Zero();
+  const Numbers* normals = numbers_of(attributes.normal_of, triangle);
+  if (!normals) return way;
+  const Weights weights = weights_of(mesh, triangle, point);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3<double> n = (is_back ? -1 : 1) * attributes.normals[(*normals)[k]].cast<double>();
+    const double gap = n.dot(mesh.corner(triangle, k) - point);
+    // The plane's normal in the other frame, times the factor by which gaps are larger here.
+    const Vec3<double> outer = to_mesh.transpose() * n;
+    if (gap > 0) way += weights.at[k] * gap / outer.squaredNorm() * outer;
+  }
+  return way;
+}
+
 Vec3<double> seen_normal(const Vec3<double>& normal, const Vec3<double>& direction, bool leaves) {
   const Vec3<double> towards = leaves ? direction : Vec3<double>(-direction);
   const double cosine = normal.dot(towards);

@@ -22,6 +22,15 @@ struct MeshPoint {
 MeshPoint mesh_point(const TriangleMesh& mesh, const MeshAttributes& attributes,
                      std::uint32_t triangle, const Vec3<double>& point);
 
+/// Returns the way from a point of a triangle to the curved surface that its corners' normals
+/// describe: the mean, by the corners' weights, of the ways up to the planes across these normals.
+/// Zero where the surface is hollow. (Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II,
+/// 2021.) The point is in the mesh's frame, the result in the frame that `to_mesh` maps to it.
+/// `is_back` turns the normals.
+Vec3<double> way_to_smooth(const TriangleMesh& mesh, const MeshAttributes& attributes,
+                           std::uint32_t triangle, const Vec3<double>& point,
+                           const Mat3<double>& to_mesh, bool is_back);
+
 /// Bends a shading normal until a ray along `direction` sees the side of the surface that it meets:
 /// its cosine is at least `least_seen_cosine`. The normal must be on the side of the outward
 /// geometric one; `leaves` is true for rays that meet it from within. Normals that are seen stay as

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/surfaces/scene_surfaces.h"
 
+#include <algorithm>
+
 #include "renderer/scene/scene_instances.h"
 #include "renderer/surfaces/conductor_bsdf.h"
 #include "renderer/surfaces/mix_bsdf.h"
@@ -163,6 +165,12 @@ Vec3<double> SceneSurfaces::relief_normal_at(std::uint32_t instance, const Textu
   const Vec3<double> normal = relief_normal(of(instance).relief, at);
   if (instance >= to_object_.size()) return normal;
   return unit<double>(to_object_[instance].linear.transpose() * normal);
+}
+
+bool SceneSurfaces::has_lamps() const {
+  return std::ranges::any_of(materials_, [](const PreparedMaterial& material) {
+    return material.radiance.maxCoeff() > 0;
+  });
 }
 
 std::vector<Colour> SceneSurfaces::radiances() const {

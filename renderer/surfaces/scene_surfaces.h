@@ -65,6 +65,8 @@ class SceneSurfaces {
   Vec3<double> axis(std::uint32_t instance) const {
     return instance < axes_.size() ? axes_[instance] : Vec3<double>(Vec3<double>::UnitZ());
   }
+  /// True if any material emits light.
+  bool has_lamps() const;
   /// Radiance of each instance.
   std::vector<Colour> radiances() const;
 

@@ -53,6 +53,23 @@ void expect_same(const Scan& a, const Scan& b) {
   }
 }
 
+TEST(Scans, rays_pass_what_no_ray_meets) {
+  // A part of alpha 0 of a robot, at rest and moving.
+  Scene scene = balls();
+  scene.objects.resize(2);
+  scene.objects[0].shape = Sphere<double>{2};
+  scene.objects[0].visible_to = 0;
+  for (Object& object : scene.objects) object.pose.translation = {0, 0, 0};
+  SensorRays rays;
+  rays.rays.push_back({{{-9, 0, 0}, {1, 0, 0}}, 0});
+  for (const bool is_moving : {false, true}) {
+    if (is_moving) scene.objects[0].motion = Motion{{PoseKey{}}, {}};
+    const Echo echo = scan(scene, rays, {}).echoes.at(0);
+    EXPECT_EQ(echo.object, 1);
+    EXPECT_EQ(echo.t, 8.5);
+  }
+}
+
 TEST(Scans, a_ray_answers_what_the_world_answers_it_alone) {
   Scene scene = balls();
   const SensorRays rays = random_rays(5000);

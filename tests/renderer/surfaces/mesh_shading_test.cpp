@@ -5,8 +5,10 @@
 #include <numbers>
 
 #include "core/files/mesh_attributes.h"
+#include "core/mesh/mesh_ray.h"
 #include "core/parallel/parallel.h"
 #include "renderer/film/render.h"
+#include "renderer/paths/integrator.h"
 #include "renderer/rays/camera.h"
 #include "renderer/surfaces/mesh_point.h"
 #include "tests/support/meshes.h"
@@ -99,6 +101,46 @@ TEST(MeshShading, a_coarse_ball_with_normals_is_lit_as_a_ball) {
     EXPECT_LT(mean_difference(truth, smooth), 0.006);
     EXPECT_GT(mean_difference(truth, flat), 0.03);
   }
+}
+
+/// Rays at a coarse ball whose radiance is not that of its interpolated normal, near the terminator
+/// and elsewhere: where triangles shade what their normals show as lit.
+int rays_off_the_cosine(const Scene& scene, const Surface& ball, const MeshAttributes& normals,
+                        IntegratorKind kind) {
+  const World world = make_world(scene);
+  const Integrator integrator(scene, world, {.bounces = 0, .kind = kind, .max_depth = 1});
+  const TriangleMesh mesh = ball.mesh();
+  const Vec3<double> to_light =
+      -unit<double>(std::get<DirectionalLight>(scene.lights[0]).direction);
+  int off = 0, seen = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const Ray<double> ray{{i % 100 / 50.0 - 0.99, -5, i / 100 / 50.0 - 0.99}, {0, 1, 0}};
+    PartCounts counts;
+    const PartHit hit = closest_part(mesh, ray, 0, counts);
+    if (!hit.found()) continue;
+    const Vec3<double> n = mesh_point(mesh, normals, hit.part, ray.at(hit.t)).normal;
+    if (n.y() > -0.1) continue;  // bent to be seen
+    TracedRay traced{ray, Sampler(1, 0, 0, static_cast<std::uint32_t>(i))};
+    RayCounts of_rays;
+    integrator.trace({&traced, 1}, of_rays);
+    const double expected = 3 / std::numbers::pi * std::max(0.0, n.dot(to_light));
+    off += std::abs(traced.radiance.x() - expected) > 1e-9 ? 1 : 0;
+    ++seen;
+  }
+  EXPECT_GT(seen, 5000);
+  return off;
+}
+
+TEST(MeshShading, triangles_do_not_shade_what_their_normals_show_as_lit) {
+  const Surface ball = coarse_ball(12, 20);
+  const MeshAttributes normals = normals_of_ball(ball);
+  Scene scene = lit_scene(mesh_object(ball, look_with(normals)));
+  for (const IntegratorKind kind : {IntegratorKind::path, IntegratorKind::ambient})
+    for (const Vec3<double>& light :
+         {Vec3<double>(-0.5, 1, -0.4), Vec3<double>(1, 0.1, 0), Vec3<double>(0.3, 0, -1)}) {
+      scene.lights = {DirectionalLight{light, Colour::Constant(3)}};
+      EXPECT_EQ(rays_off_the_cosine(scene, ball, normals, kind), 0);
+    }
 }
 
 TEST(MeshShading, normals_go_with_poses_that_stretch_and_mirror) {
