@@ -11,17 +11,17 @@
 namespace minkray {
 
 /// Seen from the point, in the plane across the normal.
-struct FaceCorner {
+struct PlaneCorner {
   double angle, x, y;
 };
 
 /// The hull's points that `takes(height above the point)`, in any order, without their angles. The
 /// list is valid until the thread's next call.
 template <class Takes>
-std::vector<FaceCorner>& face_corners(const ShapeCore& core, const Vec3<double>& point,
-                                      const Vec3<double>& n, const Takes& takes) {
+std::vector<PlaneCorner>& face_corners(const ShapeCore& core, const Vec3<double>& point,
+                                       const Vec3<double>& n, const Takes& takes) {
   const Vec3<double> u = n.unitOrthogonal(), v = n.cross(u);
-  thread_local std::vector<FaceCorner> corners;
+  thread_local std::vector<PlaneCorner> corners;
   corners.clear();
   for (int i = 0; i < core.count; ++i) {
     const Vec3<double> to = Vec3<double>(core.x[i], core.y[i], core.z[i]) - point;
@@ -31,9 +31,9 @@ std::vector<FaceCorner>& face_corners(const ShapeCore& core, const Vec3<double>&
 }
 
 /// Sorts the corners round the point.
-inline void sort_round(std::vector<FaceCorner>& corners) {
-  for (FaceCorner& corner : corners) corner.angle = std::atan2(corner.y, corner.x);
-  std::ranges::sort(corners, {}, &FaceCorner::angle);
+inline void sort_round(std::vector<PlaneCorner>& corners) {
+  for (PlaneCorner& corner : corners) corner.angle = std::atan2(corner.y, corner.x);
+  std::ranges::sort(corners, {}, &PlaneCorner::angle);
 }
 
 /// Distance of a face's corners from its plane by their rounding, in sizes.

@@ -26,10 +26,10 @@ bool is_sharp_at_disks(const ShapeCore& core, const Vec3<double>& point, double 
 }
 
 /// True if the viewpoint of the three corners is outside of their triangle or on its rim.
-bool is_on_rim(const std::vector<FaceCorner>& corners, double near) {
+bool is_on_rim(const std::vector<PlaneCorner>& corners, double near) {
   int left = 0, right = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const FaceCorner &a = corners[i], &b = corners[(i + 1) % 3];
+    const PlaneCorner &a = corners[i], &b = corners[(i + 1) % 3];
     const double x = b.x - a.x, y = b.y - a.y;
     const double height = (a.x * b.y - a.y * b.x) / std::sqrt(x * x + y * y);
     left += height > near ? 1 : 0;
@@ -43,15 +43,15 @@ bool is_on_rim(const std::vector<FaceCorner>& corners, double near) {
 bool is_sharp_at_hull(const ShapeCore& core, const Vec3<double>& point, const Vec3<double>& n,
                       double off) {
   const double near = off + flat_face * core.ball;
-  std::vector<FaceCorner>& corners =
+  std::vector<PlaneCorner>& corners =
       face_corners(core, point, n, [&](double height) { return std::abs(height) <= near; });
-  for (const FaceCorner& corner : corners)
+  for (const PlaneCorner& corner : corners)
     if (corner.x * corner.x + corner.y * corner.y <= near * near) return true;
   if (corners.size() < 3) return true;
   if (corners.size() == 3) return is_on_rim(corners, near);
   sort_round(corners);
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const FaceCorner &a = corners[i], &b = corners[i + 1 < corners.size() ? i + 1 : 0];
+    const PlaneCorner &a = corners[i], &b = corners[i + 1 < corners.size() ? i + 1 : 0];
     const double angle = b.angle - a.angle + (i + 1 < corners.size() ? 0 : 2 * std::numbers::pi);
     if (angle >= std::numbers::pi) return true;
     if (a.x * b.y - a.y * b.x <= near * std::hypot(b.x - a.x, b.y - a.y) &&

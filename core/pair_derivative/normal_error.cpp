@@ -36,7 +36,7 @@ double by_support(const ShapeCore& core, const Vec3<double>& foot, const Vec3<do
 double on_face(const ShapeCore& core, const Vec3<double>& foot, const Vec3<double>& n, double off) {
   const double near = off + flat_face * core.ball;
   double lowest = infinity, highest = -infinity;
-  std::vector<FaceCorner>& corners = face_corners(core, foot, n, [&](double height) {
+  std::vector<PlaneCorner>& corners = face_corners(core, foot, n, [&](double height) {
     highest = std::max(highest, height);
     if (height < -near) return false;
     lowest = std::min(lowest, height);
@@ -47,7 +47,7 @@ double on_face(const ShapeCore& core, const Vec3<double>& foot, const Vec3<doubl
   // The polygon of the corners in this order is part of the face.
   double inner = infinity;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const FaceCorner &a = corners[i], &b = corners[i + 1 < corners.size() ? i + 1 : 0];
+    const PlaneCorner &a = corners[i], &b = corners[i + 1 < corners.size() ? i + 1 : 0];
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     // Copies fill a hull's points up.
     if (length > 0) inner = std::min(inner, (a.x * b.y - a.y * b.x) / length);
