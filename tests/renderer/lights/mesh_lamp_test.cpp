@@ -17,7 +17,7 @@ namespace {
 
 using testing::Surface;
 
-constexpr double albedo = 0.8;
+constexpr double matt_albedo = 0.8;
 
 Object lamp_of(const Surface& surface, const Affine<double>& pose) {
   Object object;
@@ -30,7 +30,7 @@ Object lamp_of(const Surface& surface, const Affine<double>& pose) {
 /// A matt floor, its top at z = 0, and a lamp of radiance 1.
 Scene floor_under(Object lamp) {
   Scene scene;
-  scene.materials = {{"matt", LambertMaterial{Colour::Constant(albedo)}},
+  scene.materials = {{"matt", LambertMaterial{Colour::Constant(matt_albedo)}},
                      {"lamp", EmissiveMaterial{Colour::Ones()}}};
   Object floor;
   floor.shape = Box<double>{{50, 50, 1}};
@@ -40,13 +40,13 @@ Scene floor_under(Object lamp) {
   return scene;
 }
 
-struct Seen {
+struct MeanLight {
   double mean = 0, error = 0;  ///< of the mean
 };
 
 /// Radiance at the middle of the floor, or along another ray.
-Seen look(const Scene& scene, int samples, int max_depth = 1,
-          const Ray<double>& ray = {{-3, 0, 0.5}, unit<double>({3, 0, -0.5})}) {
+MeanLight look(const Scene& scene, int samples, int max_depth = 1,
+               const Ray<double>& ray = {{-3, 0, 0.5}, unit<double>({3, 0, -0.5})}) {
   const World world = make_world(scene);
   const Integrator integrator(scene, world, {.kind = IntegratorKind::path, .max_depth = max_depth});
   RayCounts counts;
@@ -75,8 +75,8 @@ double under_corner(double a, double b, double h) {
 TEST(MeshLamp, a_box_of_triangles_lights_the_floor_as_its_bottom_does) {
   // From straight below, the bottom of the box is all that is seen of it.
   const Scene scene = floor_under(lamp_of(testing::block({0.8, 0.5, 0.1}), pose_at(0, 0, 1.1)));
-  const double expected = albedo / std::numbers::pi * 4 * under_corner(0.8, 0.5, 1);
-  const Seen seen = look(scene, 1 << 14);
+  const double expected = matt_albedo / std::numbers::pi * 4 * under_corner(0.8, 0.5, 1);
+  const MeanLight seen = look(scene, 1 << 14);
   EXPECT_NEAR(seen.mean, expected, 4 * seen.error);
   EXPECT_LT(seen.error, 0.01 * expected);
 }
@@ -88,10 +88,10 @@ TEST(MeshLamp, a_ball_of_triangles_lights_the_floor_as_a_ball) {
   Object exact;
   exact.shape = Sphere<double>{0.5};
   exact.pose.translation = pose.translation;
-  const Seen truth = look(floor_under(exact), 1 << 14);
+  const MeanLight truth = look(floor_under(exact), 1 << 14);
   for (const bool is_mirrored : {false, true}) {
     if (is_mirrored) pose.linear.col(0) *= -1;
-    const Seen seen = look(floor_under(lamp_of(ball, pose)), 1 << 14);
+    const MeanLight seen = look(floor_under(lamp_of(ball, pose)), 1 << 14);
     // The triangles' outline has 0.4 % less area.
     EXPECT_NEAR(seen.mean, truth.mean,
                 4 * std::hypot(seen.error, truth.error) + 0.005 * truth.mean);
@@ -104,18 +104,18 @@ TEST(MeshLamp, a_small_lamp_is_not_left_to_chance) {
   Surface ball = testing::bumpy_ball(20, 30);
   for (Vec3<double>& vertex : ball.vertices) vertex.normalize();
   const Scene scene = floor_under(lamp_of(ball, pose_at(0, 0, 2, 0.01)));
-  const double expected = albedo * 0.01 * 0.01 / 4;
-  const Seen seen = look(scene, 1 << 12);
+  const double expected = matt_albedo * 0.01 * 0.01 / 4;
+  const MeanLight seen = look(scene, 1 << 12);
   EXPECT_NEAR(seen.mean, expected, 0.03 * expected);
 }
 
 TEST(MeshLamp, an_open_mesh_shines_to_both_sides) {
   const Surface sheet{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
-  const double expected = albedo / std::numbers::pi * 4 * under_corner(1, 1, 1);
+  const double expected = matt_albedo / std::numbers::pi * 4 * under_corner(1, 1, 1);
   for (const double side : {1.0, -1.0}) {
     Affine<double> pose = pose_at(0, 0, 1);
     pose.linear(2, 2) = pose.linear(0, 0) = side;
-    const Seen seen = look(floor_under(lamp_of(sheet, pose)), 1 << 14);
+    const MeanLight seen = look(floor_under(lamp_of(sheet, pose)), 1 << 14);
     EXPECT_NEAR(seen.mean, expected, 4 * seen.error);
   }
 }
@@ -132,7 +132,8 @@ TEST(MeshLamp, a_white_body_within_a_lamp_is_as_bright_as_the_lamp) {
     Object body;
     body.shape = Box<double>{{0.3, 0.3, 0.3}};
     scene.objects = {std::move(body), lamp_of(ball, pose_at(0.1, 0, 0, 2))};
-    const Seen seen = look(scene, 1 << 13, 200, {{0.1, -1.2, 0.2}, unit<double>({0, 1, -0.1})});
+    const MeanLight seen =
+        look(scene, 1 << 13, 200, {{0.1, -1.2, 0.2}, unit<double>({0, 1, -0.1})});
     EXPECT_NEAR(seen.mean, 1, 4 * seen.error + 0.002) << kind.index();
   }
 }
@@ -149,8 +150,8 @@ TEST(MeshLamp, only_triangles_that_shine_are_lamps) {
   Scene scene = floor_under(std::move(lamp));
   scene.materials.push_back({"black", LambertMaterial{Colour::Zero()}});
   scene.objects[1].material = 2;
-  const double expected = albedo / std::numbers::pi * 4 * under_corner(0.8, 0.5, 1);
-  const Seen seen = look(scene, 1 << 14);
+  const double expected = matt_albedo / std::numbers::pi * 4 * under_corner(0.8, 0.5, 1);
+  const MeanLight seen = look(scene, 1 << 14);
   EXPECT_NEAR(seen.mean, expected, 4 * seen.error);
   EXPECT_LT(seen.error, 0.01 * expected);
 }
