@@ -35,8 +35,8 @@ inline SignedDistanceOptions for_derivatives(SignedDistanceOptions options = {})
 }
 
 /// `found` is the pair's result with both bounds, computed with for_derivatives(); otherwise the
-/// derivative is NaN and marked as a ridge. Writes `error` if it is not null: it holds for all poses
-/// that are no further than `drift`.
+/// derivative is NaN and marked as a ridge. Writes `error` if it is not null: it holds for all
+/// poses that are no further than `drift`.
 PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a,
                              const ContactShape& b, const Affine<double>& pose_b,
                              const SignedDistance& found, PairDerivativeError* error = nullptr,

@@ -53,8 +53,8 @@ struct PathTransport::Point {
   Ray<double> ray(const Vec3<double>& w, const Vec3<double>& direction,
                   bool is_sharp = false) const {
     if (!(w.z() > 0)) return {position, direction};
-    const Vec3<double> above = position + rounding * normal;
-    return {is_sharp ? above : Vec3<double>(above + lift), direction};
+    const Vec3<double> clear = position + rounding * normal;
+    return {is_sharp ? clear : Vec3<double>(clear + lift), direction};
   }
   /// True if the direction is on the same side of the surface and of its relief.
   bool is_on_side(const Vec3<double>& w, const Vec3<double>& direction,
