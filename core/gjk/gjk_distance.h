@@ -28,8 +28,8 @@ struct DistanceOptions {
   int max_iterations = tolerance::distance_max_iterations;
   /// Initial direction from A to B, such as the previous frame's axis; zero for none.
   Vec<T, Dim> v0 = Vec<T, Dim>::Zero();
-  /// True to decide only if the objects are separated: ends at the first separating plane, with a
-  /// lower bound but no distance (the paper's "separating-axis variant").
+  /// True to decide only whether the objects are separated: ends at the first separating plane,
+  /// with a lower bound but no distance (the paper's "separating-axis variant").
   bool only_separation = false;
 };
 
@@ -75,7 +75,7 @@ DistanceResult<T, Dim> gjk_distance(const Supports& supports, const Vec<T, Dim>&
     result.certificate = std::max(gap, T(0));
     return result;
   };
-  // Rounding ends the search: w made no progress.
+  // The search ends: v is close enough, or rounding leaves no progress.
   const auto stalled = [&] {
     if (result.lower > tolerance::gjk_rounding<T> * radius)
       return finish(DistanceStatus::separated);
@@ -101,8 +101,8 @@ DistanceResult<T, Dim> gjk_distance(const Supports& supports, const Vec<T, Dim>&
       return result;
     }
 
-    // Tests if v is close enough to v(A - B). The first v may lie outside the obstacle, so it is
-    // not tested.
+    // Tests if v is close enough to the obstacle's point closest to the origin. The first v need
+    // not be a point of the obstacle, so it is not tested.
     const unsigned before = Y.used();
     bool is_close_enough = false;
     if (before != 0) {

@@ -9,7 +9,7 @@
 
 namespace minkray {
 
-/// Relative poses of two bodies, each about its middle.
+/// Relative poses of two bodies, with the middle of each as its origin.
 struct Sight {
   Turned b_in_a, a_in_b;
   Vec3<double> middle_a;  ///< in the world
@@ -26,8 +26,8 @@ class PairWalk {
   PairWalk(const BodyTree& a, const BodyTree& b, const Sight& sight)
       : a_(a), b_(b), sight_(sight) {}
 
-  /// Sets a unit vector, from A to B in A's frame, whose planes separate many of the pairs that
-  /// follow.
+  /// Sets a unit vector in A's frame that points from A to B. Planes perpendicular to it are likely
+  /// to separate many of the pairs that follow.
   void set_direction(const Vec3<double>& n) {
     has_direction_ = true;
     n_ = n;
@@ -43,7 +43,7 @@ class PairWalk {
 
   /// Calls visit(part_a, part_b) for pairs until it returns true. key(gap, box_a, box_b) is a lower
   /// bound of what the visit finds, below 0 for boxes that overlap. Omits pairs whose key is above
-  /// limit(), and returns the least key of these.
+  /// limit(). Returns the least key of the omitted pairs, or 0 after a visit that returned true.
   template <class Key, class Limit, class Visit>
   double run(const Key& key, const Limit& limit, const Visit& visit) {
     return run_leaves(key, limit, [&](BodyTree::Box a, BodyTree::Box b) {
@@ -164,7 +164,7 @@ double PairWalk::run_leaves(const Key& key, const Limit& limit, const VisitLeave
     open_.pop_back();
     if (pair.key > limit()) return std::min(left_out_, pair.key);
     MiddleBox box_a = a_.bounds(pair.a), box_b = b_.bounds(pair.b);
-    if (has_direction_) {  // a better direction than when the pair was queued
+    if (has_direction_) {  // may have been set since the pair was queued
       const double again = key(gap_along_direction(box_a, box_b) - sight_.rounding, box_a, box_b);
       if (again > limit()) {
         leave_out(again);

@@ -14,7 +14,7 @@ namespace minkray {
 
 /// Cost of queries, and how often a solver failed to converge, summed over rays.
 struct QueryCounts {
-  std::uint64_t nodes = 0;  ///< visited nodes; rays traced together count once
+  std::uint64_t nodes = 0;  ///< visited nodes; a block of rays counts one visit
   std::uint64_t casts = 0;  ///< casts at single shapes
   std::uint64_t iterations = 0;
   std::uint64_t supports = 0;
@@ -24,7 +24,7 @@ struct QueryCounts {
 
   std::uint64_t answered_by(Path path) const { return by_path[static_cast<std::size_t>(path)]; }
 
-  /// Returns the last path that any cast needed; the first path without casts.
+  /// Returns the last path that any cast needed; without casts, the first path.
   Path furthest_path() const {
     std::size_t path = path_count - 1;
     while (path > 0 && by_path[path] == 0) --path;
@@ -81,8 +81,8 @@ struct WorldHit {
   }
 };
 
-/// A ray, the instance to skip, its time (0 to 1), and its kinds: it hits instances shown to one of
-/// these kinds.
+/// A ray with its time (0 to 1), its kinds, and an instance to skip. It hits only instances that
+/// are shown to one of its kinds.
 struct WorldRay {
   Ray<double> ray;
   std::uint32_t skip = no_instance;
@@ -96,7 +96,7 @@ struct WorldRay {
 };
 
 /// View of the caller's rays, a fixed number of bytes apart: WorldRays, or plain rays, which skip
-/// no instance, have time 0 and hit all kinds.
+/// no instance, have time 0 and are of all kinds.
 class RaySpan {
  public:
   RaySpan(std::span<const WorldRay> rays)

@@ -105,7 +105,7 @@ bool World::closer_mesh(const WorldRay& ray, WorldHit& closest, QueryCounts& cou
     closest = {mesh.instance, instances_.turned(mesh.instance, cast, ray.time), part};
     found = true;
   };
-  if (instances_.meshes().size() == 1) {  // its own walk begins with its box
+  if (instances_.meshes().size() == 1) {  // the mesh's own walk begins with its box
     on_mesh(0);
     return found;
   }

@@ -16,7 +16,7 @@ void add_other_files(const Verb& verb, ImportOptions& options) {
   // reported.
   verb.add_option("others", options.others,
                   "More files for the same scene\n"
-                  "Camera and lights come from the first scene file (not a robot's)\n"
+                  "Camera and lights come from the first scene file; robot files do not count\n"
                   "--joint, --joints and --keyframe apply to SCENE only")
       .reads_file();
 }
@@ -52,8 +52,8 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
           [&options](const std::string& name) {
             options.meshes = name == "exact" ? MeshChoice::exact : MeshChoice::hull;
           },
-          "Robot meshes (default: exact, but hull if --split is given, and hull for contact in "
-          "MJCF):\n"
+          "Robot meshes (default: hull if --split is given; otherwise exact, but hull for "
+          "contacts of MJCF robots):\n"
           "exact: triangles\nhull: convex hulls")
       .one_of({"hull", "exact"})
       .group(group);

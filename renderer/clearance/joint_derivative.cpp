@@ -178,7 +178,7 @@ void for_joints_of(const Model& posed, const std::vector<Affine<double>>& poses,
       if (joint.value.size() != width_of(joint.kind) || joint.value.empty()) continue;
       if (const auto leader = numbers.leader_of(joint))
         add(*leader, by_numbers(joint, between[j], between[j + 1], motions));
-      if (joint.kind == JointKind::free) return;  // its place is absolute
+      if (joint.kind == JointKind::free) return;  // places are absolute
     }
     at = link.parent;
   }

@@ -142,7 +142,7 @@ void add_clearance(Parser& parser, ExitCode& exit_code) {
   verb.add_option("robot", options->robot, foreign_formats()).required().reads_file();
   verb.add_option("--path", options->import.joint_rows,
                   "Joint path, linear between rows: CSV of names, then values\n"
-                  "Optional column \"time\"; default: the robot does not move")
+                  "Optional column \"time\"\nWithout --path the robot does not move")
       .reads_file();
   verb.add_option("--obstacle", options->obstacles,
                   "Obstacle at rest: a scene or robot file; repeatable")
@@ -158,7 +158,7 @@ void add_clearance(Parser& parser, ExitCode& exit_code) {
   verb.add_option("--at-least", options->at_least,
                   "Exit with 1 unless the proven clearance is at least this")
       .takes("DISTANCE");
-  verb.add_option("--steps", options->steps, "Write the least clearance of each step (CSV)")
+  verb.add_option("--steps", options->steps, "Write the least clearance of each step from row to row (CSV)")
       .writes_file();
   verb.add_option("--sweep", options->sweep,
                   "Scene file to write (.json): bodies that enclose the swept links")

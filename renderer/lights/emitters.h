@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Samples emissive bodies. Of shapes, directions are drawn towards the ellipsoid around the body
+// Samples emissive bodies. For shapes, directions are drawn towards the ellipsoid around the body
 // (uniformly in the cone of a unit ball, exact for balls, ellipsoids and disks) or a face of its
 // box, whichever looks smaller. The map A from the world to that frame changes solid angles by |det
 // A| / |A d|^3 for unit d. A cast decides if a direction meets the body. Meshes are sampled by

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t rays_in_chunk = 4096;
 
-/// How often the checks that take longer than a cast are made: every so many rays or lines.
+/// Number of rays or lines per check that takes longer than a cast.
 constexpr std::size_t every_single = 8, every_exact = 16;
 /// A check of all triangles takes as long as this many casts, divided by their number.
 constexpr std::size_t triangles_per_ray = 16;

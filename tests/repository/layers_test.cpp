@@ -195,6 +195,7 @@ TEST(Layers, each_library_is_seen_in_one_place) {
       {"stb/stb_image.h", "tests/renderer/"},
       {"minkray/", "tests/renderer/library/"},
       {"minkray/", "tests/soak/"},
+      {"minkray/minkray.h", "tests/proof/grid_meshes.h"},
       {"minkray/minkray_c.h", "tests/fuzz/c_abi_calls.h"},
       {"nlohmann/", "tests/fuzz/change/"},
       {"tinyxml2.h", "tests/fuzz/change/"},

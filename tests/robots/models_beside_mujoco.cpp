@@ -128,7 +128,7 @@ MujocoRow beside_mujoco(const std::string& file, int ray_count, int runs) {
       beside.rays.push_back({{ray.origin + float_reading * extent * shift, ray.direction}, 0});
     }
     const Scan around = scan(scene, beside, {});
-    // Where the surface is steep, t changes by more than the ray's place.
+    // On steep surfaces t changes by more than the ray's place.
     double least = scanned.echoes[i].t, most = least;
     bool is_near = false;
     for (const Echo& echo : around.echoes) {

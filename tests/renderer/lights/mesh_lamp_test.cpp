@@ -156,21 +156,21 @@ TEST(MeshLamp, only_triangles_that_shine_are_lamps) {
   EXPECT_LT(seen.error, 0.01 * expected);
 }
 
-TEST(MeshLamp, directions_have_the_density_that_is_claimed) {
-  const Surface ring = testing::torus(24, 12);
-  const PosedMesh posed(0, ring.shared(), pose_at(0.5, 2, 0.3, 0.7));
+/// Counts the directions that a lamp draws from the origin, and integrates their density. Each of
+/// the triangles along a direction may have drawn it.
+DensityCheck check_lamp(const Surface& surface, const Affine<double>& pose) {
+  const PosedMesh posed(0, surface.shared(), pose);
   const MeshLamp lamp(posed, [](std::uint32_t part) { return part % 5 * 1.0; });
   const Vec3<double> point(0, 0, 0);
-  // A direction may be drawn by each of the triangles along it.
-  const TriangleMesh& mesh = *posed.mesh;
+  const Mat3<double> to_mesh = pose.linear.inverse();
   const auto pdf = [&](const Vec3<double>& direction) {
-    const Ray<double> ray{(point - posed.pose.translation) / 0.7, direction / 0.7};
     double sum = 0;
-    for (const PartHit& hit : all_parts(mesh, ray))
+    const Ray<double> ray{to_mesh * (point - pose.translation), to_mesh * direction};
+    for (const PartHit& hit : all_parts(*posed.mesh, ray))
       sum += lamp.pdf(point, direction, hit.part, hit.t);
     return sum;
   };
-  expect_density(check_density(
+  return check_density(
       [&](Sampler& sampler) -> std::optional<Vec3<double>> {
         const double which = sampler.next()[0];
         const auto sample = lamp.sample(point, which, sampler.next());
@@ -178,7 +178,22 @@ TEST(MeshLamp, directions_have_the_density_that_is_claimed) {
           return std::nullopt;
         return sample->direction;
       },
-      pdf));
+      pdf);
+}
+
+TEST(MeshLamp, directions_have_the_density_that_is_claimed) {
+  // A ring around the point, with a gap: from both sides of it.
+  Surface ring = testing::torus(24, 12);
+  ring.triangles.pop_back();
+  expect_density(check_lamp(ring, pose_at(0.1, 0.05, 0.2, 2)));
+}
+
+TEST(MeshLamp, a_closed_mesh_is_not_lit_from_behind) {
+  // A point outside of its box draws triangles that face away as well, for nothing.
+  const DensityCheck check = check_lamp(testing::torus(24, 12), pose_at(0.5, 2, 0.3, 0.7));
+  EXPECT_NEAR(check.drawn, check.total, 0.01 * check.total);
+  EXPECT_GT(check.total, 0.4);
+  EXPECT_LT(check.total, 0.6);
 }
 
 }  // namespace

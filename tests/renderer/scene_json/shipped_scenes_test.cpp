@@ -68,9 +68,14 @@ TEST(ShippedScenes, the_format_names_all_lights_and_materials_with_their_keys_an
 }
 
 TEST(ShippedScenes, cpp_and_python_have_functions_for_all_shapes) {
-  for (const char* name :
-       {"include/minkray/minkray.h", "renderer/library/python/minkray/shapes.py"}) {
-    const std::string text = text_of_file(source_folder() / name);
+  const std::string python = "renderer/library/python/minkray/";
+  const std::vector<std::string> cpp_files = {"include/minkray/minkray.h"},
+                                 python_files = {python + "shapes.py",
+                                                 python + "shapes_of_shapes.py"};
+  for (const std::vector<std::string>& files : {cpp_files, python_files}) {
+    std::string text;
+    for (const std::string& file : files) text += text_of_file(source_folder() / file);
+    const std::string& name = files.front();
     for_each_shape_kind<double>([&]<class S>() {
       if (S::name == "custom") return;  // made of a function, and of no name
       const std::string kind = "\"" + std::string(S::name) + "\"";
