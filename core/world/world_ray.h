@@ -81,8 +81,8 @@ struct WorldHit {
   }
 };
 
-/// A ray with its time (0 to 1), its kinds, and an instance to skip. It hits only instances that
-/// are shown to one of its kinds.
+/// A ray with its time (0 to 1), its kinds, and an instance to skip: only instances that are shown
+/// to one of its kinds are hit.
 struct WorldRay {
   Ray<double> ray;
   std::uint32_t skip = no_instance;
