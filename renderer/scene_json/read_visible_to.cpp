@@ -31,8 +31,8 @@ RayKinds read_visible_to(ObjectReader& object) {
   if (!json) return all_ray_kinds;
   const JsonPath path = object.path(key);
   Mistakes& mistakes = object.mistakes();
-  if (!json->is_array() || json->empty()) {
-    mistakes.add(path, "must be a list of at least one name of rays (" + found(*json) + ")");
+  if (!json->is_array()) {
+    mistakes.add(path, "must be a list of names of rays (" + found(*json) + ")");
     return all_ray_kinds;
   }
   RayKinds kinds = 0;
@@ -50,7 +50,7 @@ RayKinds read_visible_to(ObjectReader& object) {
       kinds = static_cast<RayKinds>(kinds | known->kinds);
     }
   }
-  return kinds == 0 ? all_ray_kinds : kinds;
+  return kinds;
 }
 
 void check_visible(const Scene& scene, std::uint32_t material, RayKinds visible_to,
@@ -80,11 +80,8 @@ Json visible_to_schema() {
     names.push_back(std::string(known.name));
     doc += "; " + std::string(known.name) + ": " + std::string(known.doc);
   }
-  return {{"type", "array"},
-          {"description", doc},
-          {"items", {{"enum", names}}},
-          {"minItems", 1},
-          {"uniqueItems", true}};
+  return {
+      {"type", "array"}, {"description", doc}, {"items", {{"enum", names}}}, {"uniqueItems", true}};
 }
 
 }  // namespace minkray

@@ -56,10 +56,6 @@ PosedMesh posed_at(const Object& body, double time) {
   return {0, body.mesh, body.motion->pose_at(time)};
 }
 
-}  // namespace
-
-namespace {
-
 bool is_for_no_ray(const Object& object) {
   return object.visible_to == 0;
 }
