@@ -158,7 +158,8 @@ void add_clearance(Parser& parser, ExitCode& exit_code) {
   verb.add_option("--at-least", options->at_least,
                   "Exit with 1 unless the proven clearance is at least this")
       .takes("DISTANCE");
-  verb.add_option("--steps", options->steps, "Write the least clearance of each step from row to row (CSV)")
+  verb.add_option("--steps", options->steps,
+                  "Write the least clearance of each step from row to row (CSV)")
       .writes_file();
   verb.add_option("--sweep", options->sweep,
                   "Scene file to write (.json): bodies that enclose the swept links")
