@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Selects the result of a cast from those of its stages: the first that needs no proof or has a
-// sharp proof; if there is none, the first that has any proof.
+// sharp proof, or else the first that has any proof.
 #pragma once
 
 #include <optional>

@@ -16,7 +16,7 @@ inline constexpr std::size_t rays_of_block = 64;
 /// Result for the rays of a block. Numbers are ray parameters.
 struct alignas(32) BlockAnswer {
   /// Indexed by ray: hits beyond `limit` do not matter; `lo` is a lower bound of t for the certain
-  /// hit, infinite if there is none.
+  /// hit, infinite without one.
   float limit[rays_of_block], lo[rays_of_block];
   std::uint32_t instance[rays_of_block];  ///< of the certain hit, or no_instance
   /// Pairs that may hit before the certain hit, or instead of it.

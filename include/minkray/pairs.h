@@ -113,13 +113,13 @@ inline void signed_distances(const Bodies& a, const Bodies& b, View<Distance> di
                              const PairOptions& options = {}) {
   constexpr const char* function = "minkray::signed_distances";
   const minkray_bodies plain_a = detail::plain(a), plain_b = detail::plain(b);
-  const minkray_distance_options asked = detail::plain(options);
+  const minkray_distance_options request = detail::plain(options);
   const minkray_options how = detail::plain(options.how);
   auto arrays = detail::empty_arrays<minkray_distance_arrays>();
   arrays.distances = reinterpret_cast<minkray_distance*>(distances.data());
   detail::add_derivatives(function, options.derivatives, distances.size(), arrays);
   detail::check(
-      minkray_signed_distances(&plain_a, &plain_b, distances.size(), &asked,
+      minkray_signed_distances(&plain_a, &plain_b, distances.size(), &request,
                                detail::of_pairs<minkray_pair_memory>(
                                    function, "memories", options.memories, distances.size()),
                                &arrays, &how));
@@ -144,12 +144,12 @@ inline void times_of_impact(const Bodies& a, const Bodies& b, View<const double>
 inline void manifolds(const Bodies& a, const Bodies& b, View<Manifold> found,
                       const PairOptions& options = {}) {
   const minkray_bodies plain_a = detail::plain(a), plain_b = detail::plain(b);
-  const minkray_distance_options asked = detail::plain(options);
+  const minkray_distance_options request = detail::plain(options);
   const minkray_options how = detail::plain(options.how);
   auto arrays = detail::empty_arrays<minkray_manifold_arrays>();
   arrays.manifolds = reinterpret_cast<minkray_manifold*>(found.data());
   detail::check(
-      minkray_manifolds(&plain_a, &plain_b, found.size(), &asked,
+      minkray_manifolds(&plain_a, &plain_b, found.size(), &request,
                         detail::of_pairs<minkray_pair_memory>("minkray::manifolds", "memories",
                                                               options.memories, found.size()),
                         &arrays, &how));
@@ -288,13 +288,13 @@ struct TakenPairs {
 
 inline ScenePairs distances(minkray_scene scene, View<const ObjectPair> pairs,
                             const NearOptions& options) {
-  minkray_near_options asked = plain(options);
+  minkray_near_options request = plain(options);
   const minkray_options how = plain(options.how);
   TakenPairs taken;
-  if (options.derivative_errors) asked.jac_errors = &taken.errors;
+  if (options.derivative_errors) request.jac_errors = &taken.errors;
   const auto* const numbers =
       pairs.size() > 0 ? reinterpret_cast<const std::uint32_t*>(pairs.data()) : nullptr;
-  const int status = minkray_scene_distances(scene, numbers, pairs.size(), &asked,
+  const int status = minkray_scene_distances(scene, numbers, pairs.size(), &request,
                                              &TakenPairs::take, &taken, &how);
   if (taken.no_room) throw std::bad_alloc();
   check(status);
@@ -320,12 +320,13 @@ inline ScenePairs Scene::distances(View<const ObjectPair> pairs) const {
 
 inline ScenePairs Scene::nearest(View<const Vec3> points, std::size_t k,
                                  const NearOptions& options) const {
-  minkray_near_options asked = detail::plain(options);
+  minkray_near_options request = detail::plain(options);
   const minkray_options how = detail::plain(options.how);
   ScenePairs found(points.size() * k, options.derivative_errors);
-  if (found.errors().size() > 0) asked.jac_error = reinterpret_cast<double*>(found.errors().data());
+  if (found.errors().size() > 0)
+    request.jac_error = reinterpret_cast<double*>(found.errors().data());
   detail::check(minkray_scene_nearest(handle_, reinterpret_cast<const double(*)[3]>(points.data()),
-                                      points.size(), k, &asked,
+                                      points.size(), k, &request,
                                       reinterpret_cast<minkray_scene_pair*>(found.data()), &how));
   return found;
 }
@@ -336,11 +337,11 @@ inline ScenePairs Scene::nearest(View<const Vec3> points, std::size_t k) const {
 inline void Scene::distance_to(const Bodies& shapes, View<ScenePair> nearest,
                                const NearOptions& options) const {
   const minkray_bodies bodies = detail::plain(shapes);
-  minkray_near_options asked = detail::plain(options);
-  asked.jac_error = detail::of_pairs<double>("minkray::Scene::distance_to", "options.pair_errors",
-                                             options.pair_errors, nearest.size());
+  minkray_near_options request = detail::plain(options);
+  request.jac_error = detail::of_pairs<double>("minkray::Scene::distance_to", "options.pair_errors",
+                                               options.pair_errors, nearest.size());
   const minkray_options how = detail::plain(options.how);
-  detail::check(minkray_scene_distance_to(handle_, &bodies, nearest.size(), &asked,
+  detail::check(minkray_scene_distance_to(handle_, &bodies, nearest.size(), &request,
                                           reinterpret_cast<minkray_scene_pair*>(nearest.data()),
                                           &how));
 }
@@ -353,12 +354,12 @@ inline ScenePair Scene::distance_to(const Shape& shape, const Pose& pose) const 
 inline void Scene::times_of_impact(const Bodies& shapes, View<const double> t_max,
                                    View<SceneImpact> impacts, const NearOptions& options) const {
   const minkray_bodies bodies = detail::plain(shapes);
-  minkray_near_options asked = detail::plain(options);
-  asked.jac_error = detail::of_pairs<double>("minkray::Scene::times_of_impact", "options.errors",
-                                             options.errors, impacts.size());
+  minkray_near_options request = detail::plain(options);
+  request.jac_error = detail::of_pairs<double>("minkray::Scene::times_of_impact", "options.errors",
+                                               options.errors, impacts.size());
   const minkray_options how = detail::plain(options.how);
   detail::check(minkray_scene_time_of_impact(
-      handle_, &bodies, impacts.size(), t_max.data(), t_max.size(), &asked,
+      handle_, &bodies, impacts.size(), t_max.data(), t_max.size(), &request,
       reinterpret_cast<minkray_scene_impact*>(impacts.data()), &how));
 }
 inline SceneImpact Scene::time_of_impact(const Shape& shape, const Pose& pose, const Twist& twist,

@@ -4,7 +4,6 @@
 #include "core/parts/parts_distance.h"
 #include "core/parts/parts_reach.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -36,10 +35,10 @@ class Moment {
 
   /// Derivative by twists about the links' origins.
   PairDerivative derivative(const BodyPair& pair, const SignedDistance& found,
-                            PairDerivativeError& error, const Drift& drift) const {
+                            PairDerivativeError* error, const Drift& drift) const {
     PairDerivative derivative = about_bodies(pair, found, error, drift);
-    about_link(pair.a, derivative.a, error.a);
-    about_link(pair.b, derivative.b, error.b);
+    about_link(pair.a, derivative.a, error ? &error->a : nullptr);
+    about_link(pair.b, derivative.b, error ? &error->b : nullptr);
     return derivative;
   }
 
@@ -55,31 +54,31 @@ class Moment {
 
  private:
   PairDerivative about_bodies(const BodyPair& pair, const SignedDistance& found,
-                              PairDerivativeError& error, const Drift& drift) const {
+                              PairDerivativeError* error, const Drift& drift) const {
     const Affine<double> pose_a = pose(pair.a), pose_b = pose(pair.b);
     const ClearanceBody &a = bodies_[pair.a], &b = bodies_[pair.b];
-    error = {};
+    if (error) *error = {};
     if (a.plane)
-      return derivative_at_half_space(pose_a.translation, b.parts(), pose_b, found, &error, drift);
+      return derivative_at_half_space(pose_a.translation, b.parts(), pose_b, found, error, drift);
     if (b.plane) {
       PairDerivative derivative = derivative_at_half_space(pose_b.translation, a.parts(), pose_a,
-                                                           turned_round(found), &error, drift);
+                                                           turned_round(found), error, drift);
       std::swap(derivative.a, derivative.b);
-      std::swap(error.a, error.b);
+      if (error) std::swap(error->a, error->b);
       return derivative;
     }
     if (a.mesh || b.mesh) return derivative_of(a.parts(), pose_a, b.parts(), pose_b);
-    return derivative_of(a.shape, pose_a, b.shape, pose_b, found, &error, drift);
+    return derivative_of(a.shape, pose_a, b.shape, pose_b, found, error, drift);
   }
 
   /// A mesh has an origin of its own on its link.
-  void about_link(std::size_t index, TwistDerivative& by, TwistError& error) const {
+  void about_link(std::size_t index, TwistDerivative& by, TwistError* error) const {
     const ClearanceBody& body = bodies_[index];
     if (!body.mesh || body.link_index < 0) return;
     const Vec3<double> arm =
         pose(index).translation - links_[static_cast<std::size_t>(body.link_index)].translation;
     by.by_turn += arm.cross(by.by_velocity);
-    error.by_turn += arm.norm() * error.by_velocity;
+    if (error) error->by_turn += arm.norm() * error->by_velocity;
   }
 
   static SignedDistance turned_round(SignedDistance found) {
@@ -103,7 +102,8 @@ class Moment {
 
 ClearanceDerivative derivative_of(const Closest& closest, const JointPath& path,
                                   const std::vector<ClearanceBody>& bodies,
-                                  const std::vector<BodyPair>& pairs, const JointWidths& joints) {
+                                  const std::vector<BodyPair>& pairs, const JointWidths& joints,
+                                  bool with_errors) {
   const Model posed = path.posed_at(closest.time);
   ClearanceDerivative result;
   if (!std::isfinite(closest.upper)) {
@@ -115,10 +115,12 @@ ClearanceDerivative derivative_of(const Closest& closest, const JointPath& path,
   how = for_derivatives(how);
   const BodyPair nearest{closest.a, closest.b};
   const SignedDistance found = moment.distance(nearest, how);
-  Drift drift = rounding_of_links(posed);
+  const Drift rounding = rounding_of_links(posed);
+  Drift drift = rounding;
   drift.way += drift.turn * (bodies[closest.a].reach() + bodies[closest.b].reach());
   PairDerivativeError error;
-  const PairDerivative derivative = moment.derivative(nearest, found, error, drift);
+  const PairDerivative derivative =
+      moment.derivative(nearest, found, with_errors ? &error : nullptr, drift);
   const std::array<LinkDerivative, 2> links = {
       LinkDerivative{bodies[closest.a].link_index, derivative.a, error.a},
       LinkDerivative{bodies[closest.b].link_index, derivative.b, error.b}};
@@ -132,9 +134,11 @@ ClearanceDerivative derivative_of(const Closest& closest, const JointPath& path,
     result.is_ridge = moment.lower_by_balls(pair) <= found.upper &&
                       moment.distance(pair, how).lower <= found.upper;
   }
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  result.errors = errors_by_joints(posed, joints, links);
-  if (result.is_ridge) std::ranges::fill(result.errors, infinity);
+  if (!with_errors) return result;
+  if (result.is_ridge)
+    result.errors.assign(result.by_joints.size(), std::numeric_limits<double>::infinity());
+  else
+    result.errors = errors_by_joints(posed, joints, links, rounding);
   return result;
 }
 

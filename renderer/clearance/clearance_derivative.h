@@ -11,8 +11,8 @@ namespace minkray {
 
 struct ClearanceDerivative {
   std::vector<double> by_joints;  ///< zero if there is no pair, NaN if nothing is known of it
-  /// Bounds of their errors. Infinite on ridges and for meshes; else for the pose at this moment,
-  /// the joints' values rounded.
+  /// Bounds of their errors, if requested. Infinite on ridges and for meshes; else for the pose at
+  /// this moment, the joints' values rounded.
   std::vector<double> errors;
   /// The bounds do not exclude that there are other derivatives: of this pair, or of another one
   /// that is as near at this moment. Other moments are not considered.
@@ -22,6 +22,7 @@ struct ClearanceDerivative {
 /// `closest` is an answer of clearance_of() on the same path, bodies and pairs.
 ClearanceDerivative derivative_of(const Closest& closest, const JointPath& path,
                                   const std::vector<ClearanceBody>& bodies,
-                                  const std::vector<BodyPair>& pairs, const JointWidths& joints);
+                                  const std::vector<BodyPair>& pairs, const JointWidths& joints,
+                                  bool with_errors = false);
 
 }  // namespace minkray

@@ -204,14 +204,13 @@ std::vector<double> derivative_by_joints(const Model& posed, const JointWidths& 
 }
 
 std::vector<double> errors_by_joints(const Model& posed, const JointWidths& joints,
-                                     std::span<const LinkDerivative> links) {
+                                     std::span<const LinkDerivative> links, const Drift& rounding) {
   const JointNumbers numbers(posed, joints);
   std::vector<double> sum(numbers.count());
   const std::vector<Affine<double>> poses = link_poses(posed);
-  const Drift drift = rounding_of_links(posed);
   for (const LinkDerivative& one : links) {
     if (one.link < 0) continue;
-    const MotionErrors errors(one, poses[static_cast<std::size_t>(one.link)].translation, drift);
+    const MotionErrors errors(one, poses[static_cast<std::size_t>(one.link)].translation, rounding);
     for_joints_of(posed, poses, numbers, one.link, errors,
                   [&](const Leader& leader, const std::vector<double>& of) {
                     for (std::size_t i = 0; i < of.size(); ++i)

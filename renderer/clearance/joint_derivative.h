@@ -31,8 +31,9 @@ std::vector<double> derivative_by_joints(const Model& posed, const JointWidths& 
                                          std::span<const LinkDerivative> links);
 
 /// Bounds of the errors of derivative_by_joints: of the links' derivatives, and of rounding.
+/// `rounding` is rounding_of_links(posed).
 std::vector<double> errors_by_joints(const Model& posed, const JointWidths& joints,
-                                     std::span<const LinkDerivative> links);
+                                     std::span<const LinkDerivative> links, const Drift& rounding);
 
 /// Bounds by how much rounding may move and turn the model's links.
 Drift rounding_of_links(const Model& posed);

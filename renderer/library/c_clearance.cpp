@@ -44,7 +44,7 @@ struct DerivativeRoom {
   std::uint8_t* is_ridge = nullptr;
   double* jac_error = nullptr;
 
-  explicit operator bool() const { return jac || is_ridge; }
+  explicit operator bool() const { return jac || is_ridge || jac_error; }
 };
 
 void find_derivatives(const Clearance& found, const JointPath& path, const RobotAmong& among,
@@ -55,7 +55,7 @@ void find_derivatives(const Clearance& found, const JointPath& path, const Robot
       const std::size_t step = std::min(i, path.steps() - 1);
       const ClearanceDerivative derivative =
           derivative_of(step < found.steps.size() ? found.steps[step] : Closest{}, path,
-                        among.bodies, among.pairs, joints);
+                        among.bodies, among.pairs, joints, room.jac_error != nullptr);
       if (room.jac) std::ranges::copy(derivative.by_joints, room.jac + i * numbers);
       if (room.jac_error) std::ranges::copy(derivative.errors, room.jac_error + i * numbers);
       if (room.is_ridge) room.is_ridge[i] = derivative.is_ridge ? 1 : 0;
@@ -90,10 +90,8 @@ void find_clearance(const HeldScene& held, const HeldScene::Group& robot,
                          among.objects);
     to.row += static_cast<double>(i - step);
   }
-  DerivativeRoom room = asked.derivatives;
-  if (!room) return;
-  room.jac_error = given.jac_error;
-  find_derivatives(found, path, among, robot.joints, steps, asked.numbers, room);
+  if (!asked.derivatives) return;
+  find_derivatives(found, path, among, robot.joints, steps, asked.numbers, asked.derivatives);
   throw_if_lied(held.customs());
 }
 
@@ -118,6 +116,11 @@ void clearance_call(minkray_scene scene, std::uint32_t group,
                [&] { find_clearance(*held, robot, read, given, asked); });
 }
 
+/// Null for programs that were compiled before there was one.
+double* jac_error_of(const minkray_clearance_options* options) {
+  return options && options->size >= sizeof *options ? options->jac_error : nullptr;
+}
+
 }  // namespace
 }  // namespace minkray
 
@@ -138,7 +141,8 @@ int minkray_scene_clearance_derivatives(minkray_scene scene, uint32_t group, con
                                         const minkray_clearance_options* options,
                                         minkray_clearance* steps, double* jac, uint8_t* is_ridge) {
   return call("minkray_scene_clearance_derivatives", [&] {
-    clearance_call(scene, group, options, {path, rows, numbers, steps, nullptr, {jac, is_ridge}});
+    clearance_call(scene, group, options,
+                   {path, rows, numbers, steps, nullptr, {jac, is_ridge, jac_error_of(options)}});
   });
 }
 

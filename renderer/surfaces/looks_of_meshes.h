@@ -42,8 +42,8 @@ class LooksOfMeshes {
   std::uint32_t material(std::uint32_t instance, std::uint32_t part, std::uint32_t otherwise) const;
   /// Attributes at a point in the mesh's frame; none if the instance has no look.
   MeshPoint at(const SurfaceHit& hit, const Vec3<double>& point) const;
-  /// The interpolated normal, and the curved surface where the normal is near the hit's; the hit's
-  /// where there is none.
+  /// Returns the interpolated normal (that of the hit for meshes without normals), and the curved
+  /// surface if that normal is near the hit's.
   SmoothPoint smooth(const World& world, const SurfaceHit& hit, const Vec3<double>& point,
                      double time) const;
 

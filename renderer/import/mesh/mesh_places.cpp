@@ -13,7 +13,7 @@ namespace {
 /// Largest number of folders to search; a folder has few packages.
 constexpr std::size_t most_folders_looked_at = 1000;
 
-/// The name in a folder's package.xml; empty if there is none.
+/// Returns the name in a folder's package.xml, or nothing.
 std::string package_name(const std::filesystem::path& folder) {
   std::error_code error;
   const std::filesystem::path file = folder / "package.xml";

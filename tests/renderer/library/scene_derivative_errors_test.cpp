@@ -249,9 +249,19 @@ TEST_F(Arm, has_bounds_of_its_clearances_derivative) {
     }
   }
   EXPECT_LT(worst, 1e-9);
+  // Bounds alone are the same.
+  const double at_rest[3] = {};
+  double jac[3], error[3], alone[3] = {};
+  scene_.clearance_derivatives(robot_, at_rest, 1, {}, jac, {}, error);
+  minkray_clearance_options options = {};
+  options.size = sizeof options;
+  options.jac_error = alone;
+  EXPECT_EQ(minkray_scene_clearance_derivatives(scene_.handle(), robot_.number(), at_rest, 1, 3,
+                                                &options, nullptr, nullptr, nullptr),
+            MINKRAY_OK);
+  for (int k = 0; k < 3; ++k) EXPECT_EQ(alone[k], error[k]);
   const double path[6] = {};
-  double jac[3], error[2];
-  EXPECT_THROW(scene_.clearance_derivatives(robot_, path, 2, {}, jac, {}, error), mk::Error);
+  EXPECT_THROW(scene_.clearance_derivatives(robot_, path, 2, {}, jac, {}, {error, 2}), mk::Error);
 }
 
 TEST_F(Arm, has_infinite_bounds_on_ridges) {

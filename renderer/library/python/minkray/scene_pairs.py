@@ -127,7 +127,7 @@ _OF_IMPACT = {name: name for name in ("object", "t_lo", "t_hi", "normal", "point
 
 
 def _nearest_of(rows, jac, errors):
-    """`errors`: None, or four bounds per row, of which the shape's are kept."""
+    """`errors`: None, or four bounds per row; those of the shape are kept."""
     fields = _columns(rows, _OF_NEAREST, jac)
     if errors is not None:
         fields["jac_error"] = errors[..., :2].copy()
