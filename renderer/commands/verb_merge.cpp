@@ -56,7 +56,7 @@ void add_merge(Parser& parser, ExitCode&) {
       .one_of(tone_map_names())
       .show_default();
   verb.add_flag("--allow-partial", options->allow_partial,
-                "Missing tiles are black, missing samples are ignored");
+                "Accept missing parts: missing tiles are black, missing samples are ignored");
   verb.add_flag("--times", options->times,
                 "Print each share's name, CPU time (s) and file size (bytes)");
   verb.on_call([options] { run(*options); });
