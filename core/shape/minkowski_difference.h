@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The configuration space obstacle A - B: all differences of a point of A and a point of B. A ray
-// from the origin hits it where B, moving along the ray, first touches A.
+// from the origin hits the obstacle at the t at which B, moving along the ray, first touches A.
 #pragma once
 
 #include "core/math/vec.h"
