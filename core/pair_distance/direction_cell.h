@@ -169,10 +169,10 @@ class DirectionCellBound {
   }
 
   /// Adds the candidate where n.p = n.q = n.r, if it is in the cell or just outside. If the
-  /// points are collinear, the middle one bounds nothing. For slivers, rounding turns n considerably. This only
-  /// matters if the foot of the origin on the points' plane is in their triangle; otherwise u is
-  /// larger at another candidate. The foot is no further along n than the furthest of the three
-  /// points, and neither is the plane, up to the square of the turn.
+  /// points are collinear, the middle one bounds nothing. For slivers, rounding turns n
+  /// considerably. This only matters if the foot of the origin on the points' plane is in their
+  /// triangle; otherwise u is larger at another candidate. The foot is no further along n than the
+  /// furthest of the three points, and neither is the plane, up to the square of the turn.
   void add_triple(const PlainVector& p, const PlainVector& q, const PlainVector& r) {
     constexpr double in_line = 1e-12, beside = 1e-3;
     // Rounding of a cross product, relative to the product of its factors' lengths.

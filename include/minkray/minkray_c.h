@@ -88,9 +88,9 @@ MINKRAY_API int minkray_shape_make(const char* kind, const minkray_parameter* pa
 MINKRAY_API int minkray_shape_read(const char* json, const char* folder, minkray_shape* shape);
 
 /* A custom shape: points[i] is its point furthest along directions[i], which has length 1. Equal
- * directions must get equal points. Several threads call it at once. It must not query the shape
- * itself or shapes made of it: such calls return MINKRAY_WRONG_USE. Returns 0, or nonzero if it
- * failed: see minkray_support_failed. */
+ * directions must get equal points. Several threads call it at once. Queries of the shape
+ * itself, or of shapes made of it, are not allowed inside the function and return
+ * MINKRAY_WRONG_USE. Returns 0, or nonzero if it failed: see minkray_support_failed. */
 typedef int (*minkray_support_function)(void* user, size_t count, const double (*directions)[3],
                                         double (*points)[3]);
 
@@ -404,8 +404,8 @@ MINKRAY_API int minkray_camera_rays(const char* camera, const minkray_pose* pose
 typedef struct minkray_picture_options {
   size_t size; /* sizeof(minkray_picture_options) */
   /* Text of a JSON object with the keys "camera", "lights" and "background" of scene files, each
-   * optional. They replace those of the scene's files. May be NULL. Without a camera the picture
-   * shows all objects; without lights there are a sun and a sky. */
+   * optional. Present keys replace those of the scene's files. May be NULL. Without a camera the
+   * picture shows all objects; without lights there are a sun and a sky. */
   const char* view;
   uint32_t width; /* in pixels; 0: the camera's */
   uint32_t height;

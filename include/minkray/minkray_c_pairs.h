@@ -201,7 +201,7 @@ typedef int (*minkray_take_pairs)(void* user, const minkray_scene_pair* pairs, s
  * or that are allowed, pairs of half-spaces, and links of a robot that do not move relative to each
  * other or that a joint connects. If `pairs` is not NULL, computes exactly these `count` pairs (two
  * numbers each), in their order, even if masks exclude them or they are allowed. Options may be
- * NULL: `within` is then 0, without derivatives. Of `how` only `threads` is used. */
+ * NULL: `within` is then 0, without derivatives. `threads` is the only used member of `how`. */
 MINKRAY_API int minkray_scene_distances(minkray_scene scene, const uint32_t* pairs, size_t count,
                                         const minkray_near_options* options,
                                         minkray_take_pairs take, void* user,
