@@ -274,8 +274,8 @@ inline constexpr T contact_back_off[] = {T(8) * epsilon<T>, T(64) * epsilon<T>,
 template <class T>
 inline constexpr T collinear = T(4) * epsilon<T>;
 
-/// Proofs consider the ray up to this distance from the bounding ball's centre, in radii of the
-/// ball.
+/// Proofs use the ray up to this distance from its point closest to the bounding ball's centre, in
+/// radii of the ball.
 inline constexpr double proof_reach = 2;
 
 /// Factor by which the error of a proof may exceed the rounding of double: the middle of a sliver
