@@ -112,7 +112,8 @@ void RenderArguments::add_to(const Verb& verb) {
   verb.add_option("--contact-sheet", contact_sheet,
                   "Picture to write, with thumbnails of all --frames")
       .writes_file();
-  verb.add_flag("--stats", stats, "Print rays, speed, work and memory; as JSON: --stats=json")
+  verb.add_flag("--stats", stats,
+                "Print statistics: rays, speed, work and memory; --stats=json prints JSON")
       .group(research_group);
   verb.add_flag("--certify", certify, "Prove the result of every ray; exit with 1 if a proof fails")
       .group(research_group);
