@@ -39,9 +39,9 @@ class FacetMesh {
     std::size_t neighbour(std::size_t k) const {
       return static_cast<std::size_t>(numbers_[neighbours + k]);
     }
-    /// True if no vertex of the hull reaches further along the normal than corner 0, the other
-    /// corners reach as far up to rounding, and the facet is so thick that a line passes through it
-    /// or not independently of rounding.
+    /// True if no vertex of the hull reaches further along the normal than corner 0, and the other
+    /// corners reach as far up to rounding. The facet must also be so thick that rounding does not
+    /// decide if a line passes through it.
     bool is_supported() const { return numbers_[supported] != T(0); }
 
     /// Rounds the facet to U; the result does not count as supported. If U is more precise, the

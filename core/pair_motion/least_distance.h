@@ -51,7 +51,7 @@ struct LeastDistance {
 /// A plane with normal n separates the bodies by the gap g(n, s) at a time s. The gap is at most
 /// the signed distance. For a fixed n the gap is the least n.(q - p) over points p of A and q of B.
 /// As a function of s, each n.(q - p) has a second derivative of at most `acceleration`. So on [s0,
-/// s1] the distance is at least
+/// s1] the distance is at least the larger of
 ///
 ///   min(g(n, s0), g(n, s1)) - acceleration * (s1 - s0)^2 / 8   for any n, and
 ///   (d(s0) + d(s1) - speed * (s1 - s0)) / 2                    since `speed` bounds |d'|.

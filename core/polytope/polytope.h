@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Finds where a line enters the convex hull of points: by a walk over the triangles to the one that
 // the line passes through. If the walk is undecided or the hull has few facets, tests all planes
-// instead. Each plane has a bound on the depth of its triangles' points below the plane, so the
-// proof does not depend on how planes were found (docs/forms.md, "Polytopes with an error bound").
+// instead. Each plane has a bound on the depth of its triangles' points below the plane. The proof
+// therefore holds for planes from any source (docs/forms.md, "Polytopes with an error bound").
 #pragma once
 
 #include <memory>

@@ -24,7 +24,7 @@ struct RayNearBall {
   W t_shift;
   W t_per_length;
   /// Bounds the error of the ray's points near the shape that is due to the uncertainty of the
-  /// shape's pose and map, in addition to the rounding of the shape's own points.
+  /// shape's pose and map. The rounding of the shape's own points is not included.
   W loss = W(0);
 
   W t_offset(W lambda) const { return t_shift + lambda * t_per_length; }

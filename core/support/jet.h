@@ -2,7 +2,7 @@
 // Jets: a shape's support mapping to second order (derived in docs/forms.md). In direction n, a
 // shape is approximated by an ellipsoid with the same support point and curvature. With
 // h(n) = n.s(n), c an interior point, g = s - c and H = ds/dn, its shape matrix around c is
-// A = h H + g g^T. Jets store a factor F, A = F F^T, since A itself loses half of the digits of
+// A = h H + g g^T. Jets store a factor F of A = F F^T, since A would lose half of the digits of
 // flat features.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds which of many bodies are near each other, with their signed distances, by traversing a BVH
-// against itself or another BVH. Not for half-spaces, which have no box.
+// Finds pairs of near bodies among many, and their signed distances, by traversing a BVH against
+// itself or another BVH. Half-spaces are not supported, since they have no box.
 #pragma once
 
 #include <cstdint>

@@ -103,10 +103,9 @@ typedef struct minkray_support {
 } minkray_support;
 
 /* A mesh: triangles with shared vertices, three indices of vertices each, counter-clockwise as seen
- * from outside. Rays hit the mesh itself, not its hull, from both sides, and a ray at an edge or
- * vertex of a closed mesh hits one of the triangles there. Scenes accept a mesh like a shape;
- * functions that need a convex shape, such as minkray_shape_make, reject it. Both arrays are
- * copied. */
+ * from outside. Rays hit the mesh itself, not its hull, from both sides. A ray at an edge or vertex
+ * of a closed mesh hits one of the triangles there. Scenes accept a mesh like a shape; functions
+ * that need a convex shape, such as minkray_shape_make, reject a mesh. Both arrays are copied. */
 MINKRAY_API int minkray_shape_mesh(const double (*vertices)[3], size_t vertex_count,
                                    const uint32_t (*triangles)[3], size_t triangle_count,
                                    minkray_shape* shape);
@@ -382,20 +381,21 @@ MINKRAY_API int minkray_scene_prove(minkray_scene scene, const minkray_ray* rays
 
 /* A lidar's rays. `pattern` is one of
  * - "spinning:CHANNELSxSTEPS[:LOWEST,HIGHEST[:FROM,TO]]": elevations (default -15,15) and azimuths
- *   in degrees. Rays are row by row, the highest elevation first, by default clockwise from behind
- * - a lidar's name: "VLP-16", "VLP-32C", "HDL-64E", "OS1-64" or "Mid-360"
- * - a file: .csv (Livox), .json of elevations (also Ouster's) or .mat3x4f
+ *   in degrees. Rays are row by row, the highest elevation first, by default clockwise from behind.
+ * - a lidar's name: "VLP-16", "VLP-32C", "HDL-64E", "OS1-64" or "Mid-360".
+ * - a file: .csv (Livox), .json of elevations (also Ouster's) or .mat3x4f.
  * In the sensor's frame x is ahead and z is the axis. `pose` is that of the sensor in the world, or
  * NULL. Directions have length 1, so t is the distance. Writes at most `size` rays, and the number
  * of all rays to `needed` (if not NULL). */
 MINKRAY_API int minkray_lidar_rays(const char* pattern, const minkray_pose* pose, minkray_ray* rays,
                                    size_t size, size_t* needed);
 
-/* A calibrated camera's rays, row by row: `camera` is the text of a JSON object with fx, fy, cx,
- * cy, width and height in pixels, and optionally "model" ("pinhole" or "fisheye"), k1 to k6 (k4),
- * p1 and p2, all as in OpenCV, with the centre of the first pixel at (0, 0). Directions have z = 1
- * in the camera's frame, so t is the depth; for fisheyes they have length 1. Directions are NaN
- * where the distortion has no inverse. Pose, size and `needed` are as for lidars. */
+/* A calibrated camera's rays, row by row. `camera` is the text of a JSON object with fx, fy, cx,
+ * cy, width and height in pixels. Optional are "model" ("pinhole" or "fisheye"), k1 to k6
+ * (fisheyes: k1 to k4), p1 and p2. All are as in OpenCV: the centre of the first pixel is at (0,
+ * 0). Directions have z = 1 in the camera's frame, so t is the depth; for fisheyes they have
+ * length 1. Directions are NaN where the distortion has no inverse. Pose, size and `needed` are as
+ * for lidars. */
 MINKRAY_API int minkray_camera_rays(const char* camera, const minkray_pose* pose, minkray_ray* rays,
                                     size_t size, size_t* needed);
 

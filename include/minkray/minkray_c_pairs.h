@@ -38,8 +38,8 @@ typedef struct minkray_bodies {
 } minkray_bodies;
 
 /* Warm start: the final state of a query on a pair, kept by the caller for the next query on the
- * same pair, which is faster if the two have moved little. All zeros: empty. Bounds hold for any
- * contents; the result's last digits depend on them. */
+ * same pair. This query is then faster if the two have moved little. All zeros: empty. Bounds hold
+ * for any contents; the result's last digits depend on the contents. */
 typedef struct minkray_pair_memory {
   uint64_t words[8];
 } minkray_pair_memory;
