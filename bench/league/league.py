@@ -24,7 +24,7 @@ NPM = ('mujoco-js', 'rapier', 'jolt')
 
 
 def arguments():
-    parser = argparse.ArgumentParser(prog='minkray league', description='Compare solvers on the hard cases')
+    parser = argparse.ArgumentParser(prog='minkray league', description='Compare Minkray with other solvers on hard cases')
     parser.add_argument('--cases', nargs='+', metavar='FILE', help='files of cases (default: all of tests/cases)')
     parser.add_argument('--only', metavar='TEXT', help='only cases whose names contain this')
     parser.add_argument('--solvers', metavar='NAMES', help='solvers to run, comma-separated (default: all available)')
@@ -32,7 +32,7 @@ def arguments():
     parser.add_argument('--exec', action='append', default=[], metavar='CMD', dest='commands',
                         help='add a solver: a command that works like `minkray cast -`; repeatable')
     parser.add_argument('--random', type=int, default=0, metavar='N',
-                        help='random rays per family and shape, in addition to the cases')
+                        help='random rays per kind of ray and shape, in addition to the cases')
     parser.add_argument('--seed', type=int, default=1, help='random seed of --random')
     parser.add_argument('--limit', type=float, default=5, metavar='SECONDS', help='for an answer; 5 by default')
     parser.add_argument('-o', '--html', metavar='FILE', help='a report: case by solver')

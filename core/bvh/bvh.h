@@ -13,13 +13,13 @@ namespace minkray {
 /// Children of a node: the number of floats in an AVX2 register.
 inline constexpr int bvh_width = 8;
 
-/// Up to eight boxes, coordinate by coordinate, and the child in each. Boxes are rounded outwards
-/// to float, also for rays in double, at the cost of at most a few more visits.
+/// Up to eight boxes, coordinate by coordinate, and the child in each box. Boxes are rounded
+/// outwards to float, also for rays in double, which causes at most a few more visits.
 struct alignas(32) BvhNode {
-  /// No child: its box is empty, as are all that follow.
+  /// No child. The box is empty, and so are all following boxes.
   static constexpr std::uint32_t none = ~std::uint32_t{0};
-  /// If this bit of a child is set, its other bits are the index of one of the boxes that the
-  /// hierarchy was built from; otherwise the child is the index of a node.
+  /// If this bit of a child is set, the other bits are the index of a box that the hierarchy was
+  /// built from. Otherwise the child is the index of a node.
   static constexpr std::uint32_t leaf = std::uint32_t{1} << 31;
 
   float planes[2][3][bvh_width];  ///< lower corners, upper corners
@@ -42,14 +42,14 @@ struct alignas(32) BvhNode {
 };
 static_assert(sizeof(BvhNode) == 224);
 
-/// Node 0 is the root; no nodes at all if there are no boxes. Children follow their parents.
+/// Node 0 is the root. Children follow their parents. Empty if there are no boxes.
 struct Bvh {
   FirstTouchVector<BvhNode> nodes;
 
   std::size_t bytes() const { return nodes.capacity() * sizeof(BvhNode); }
 };
 
-/// No path from the root is longer than this, whatever the boxes.
+/// No path from the root is longer than this, for any boxes.
 inline constexpr int bvh_max_depth = 80;
 
 /// Preference of build quality or build speed (docs/decisions/many-rays.md).
@@ -61,17 +61,16 @@ enum class BvhBuild : unsigned char {
 /// Builds the hierarchy of at most 2^30 boxes. The result does not depend on the number of threads.
 /// The boxes must not be empty; they may be flat, equal, or infinite.
 Bvh build_bvh(std::span<const Bounds<float>> boxes, BvhBuild build = BvhBuild::quality);
-/// Frees the boxes as soon as they are read.
+/// Frees the boxes as soon as possible.
 Bvh build_bvh(FirstTouchVector<Bounds<float>>&& boxes, BvhBuild build = BvhBuild::quality);
 
-/// Refits the hierarchy to the boxes of the same objects after they moved. The further they moved
-/// relative to each other, the more nodes rays visit needlessly; rays find the same as after a
-/// rebuild.
+/// Refits the hierarchy to the boxes of the same objects after these moved. Rays find the same
+/// boxes as after a rebuild, but visit more nodes the further objects moved relative to each other.
 void refit(Bvh& bvh, std::span<const Bounds<float>> boxes);
 
-/// Expected number of nodes, and of boxes in leaves, visited by a random line that meets the root's
-/// box: the sum of their surface areas, divided by the root's. The surface area heuristic minimises
-/// both numbers.
+/// Expected numbers of nodes, and of boxes in leaves, that a random line visits if it meets the
+/// root's box: the sum of their surface areas, divided by that of the root. The surface area
+/// heuristic minimises both numbers.
 struct VisitEstimate {
   double nodes = 0, leaves = 0;
 };

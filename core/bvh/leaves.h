@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hierarchies with several boxes per leaf, for contents that are tested in lanes together.
+// Hierarchies with several boxes per leaf, whose contents are tested together in SIMD lanes.
 #pragma once
 
 #include "core/bvh/bvh.h"
@@ -10,7 +10,7 @@ namespace minkray {
 struct BvhOfLeaves {
   Bvh bvh;
   FirstTouchVector<std::uint32_t> boxes;   ///< numbers of all boxes, leaf by leaf
-  FirstTouchVector<std::uint32_t> begins;  ///< begin of each leaf, then the end of the last one
+  FirstTouchVector<std::uint32_t> begins;  ///< begin of each leaf; then the end of the last leaf
 };
 
 /// Same as build_bvh with BvhBuild::quality, but with up to bvh_width boxes per leaf; most leaves

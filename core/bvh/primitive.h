@@ -62,7 +62,7 @@ struct Primitive {
 };
 static_assert(sizeof(Primitive) == 32);
 
-/// Two boxes of a range: one around its primitives, one around their doubled middles.
+/// Two boxes of a range of primitives: one around the primitives, one around their doubled middles.
 struct Extent {
   BuildBox box;
   BuildBox middles;

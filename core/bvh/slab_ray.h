@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Rays prepared for slab tests against eight boxes of floats, padded after Ize, "Robust BVH Ray
-// Traversal" (2013): rounding never loses a box that the exact ray meets. Rays of any scalar are
-// tested in float, with the origin rounded towards earlier first planes and later last planes. t is
-// scaled to steps, by a power of two that makes the direction's largest component about 1, so that
+// Traversal" (2013), so rounding never loses a box that the exact ray meets. Rays are tested in
+// float; the origin is rounded so that near planes come earlier and far planes later. t is scaled
+// to steps, by a power of two that makes the direction's largest component about 1, so that
 // directions of any length stay in range.
 #pragma once
 
@@ -18,30 +18,31 @@
 
 namespace minkray {
 
-/// Numbers of a ray for slab tests. Planes are met first (near) or last (far).
+/// Numbers of a ray for slab tests. The ray meets the near plane of each pair first, the far one
+/// last.
 struct SlabNumbers {
   float origin_near[3], origin_far[3];
   float inverse_near[3], inverse_far[3];  ///< 1 / direction; infinite where a component is 0
-  float t_max;                            ///< in steps; negative: meets nothing
+  float t_max;                            ///< in steps; negative: the ray meets nothing
   int near[3];                            ///< 0: the lower plane, 1: the upper one
 };
 
-/// (plane - origin) * inverse is rounded three times: relative error gamma = 3u / (1 - 3u), u half
-/// the machine epsilon. Two planes are compared, so the error counts twice, and the product with
-/// the padding is rounded once more: 1 + 2 gamma + u < 1 + 4 epsilon.
+/// (plane - origin) * inverse is rounded three times, so its relative error is gamma = 3u / (1 -
+/// 3u), where u is half the machine epsilon. Two planes are compared, so the error counts twice,
+/// and the product with the padding is rounded once more: 1 + 2 gamma + u < 1 + 4 epsilon.
 inline constexpr float slab_padding = 1 + 4 * std::numeric_limits<float>::epsilon();
 
 /// Hit parameters are rounded when they are computed and when they are converted to steps. Boxes
 /// that begin behind a hit by up to this factor are still visited.
 inline constexpr float hit_padding = 1 + 32 * std::numeric_limits<float>::epsilon();
 
-/// Absolute error where numbers are subnormal.
+/// Absolute error of subnormal numbers.
 inline constexpr float slab_tiny = std::numeric_limits<float>::min();
 
 namespace detail {
 
-/// Least float that is not below x. Without a branch, which would be unpredictable: numbers are
-/// rounded down or up at random.
+/// Least float that is not below x. Avoids a branch, which would be unpredictable, since numbers
+/// are rounded down or up at random.
 inline float float_above(double x) {
   const auto nearest = static_cast<float>(x);
   const std::int32_t step = static_cast<double>(nearest) < x ? 1 : 0;
@@ -61,8 +62,8 @@ struct SlabRay {
   double steps;  ///< number of steps that make t = 1
 
   SlabRay() = default;
-  /// Origin and direction must be finite. Components of the direction may be zero (also -0). If all
-  /// are, the ray is a single point.
+  /// Origin and direction must be finite. Components of the direction may be zero (also -0); if all
+  /// are zero, the ray is a single point.
   template <class T>
   explicit SlabRay(const Ray<T>& ray) {
     const double largest = static_cast<double>(ray.direction.cwiseAbs().maxCoeff());
@@ -80,7 +81,7 @@ struct SlabRay {
       if constexpr (std::is_same_v<T, float>) {
         numbers.origin_near[axis] = numbers.origin_far[axis] = ray.origin[axis];
       } else {
-        // Mirrors the ray so that it goes up, and mirrors back: a branch would be unpredictable.
+        // Mirrors the ray so that it goes up, and mirrors back. A branch would be unpredictable.
         const double turn = std::copysign(1.0, d), o = turn * ray.origin[axis];
         numbers.origin_near[axis] = static_cast<float>(turn) * detail::float_above(o);
         numbers.origin_far[axis] = static_cast<float>(turn) * detail::float_below(o);
@@ -94,7 +95,7 @@ struct SlabRay {
     numbers.t_max = limit(static_cast<double>(ray.t_max));
   }
 
-  /// Number of steps beyond which boxes contain no hit at t or before.
+  /// Number of steps: boxes beyond it contain no hit with a parameter of at most t.
   float limit(double t) const { return static_cast<float>(t * steps) * hit_padding + slab_tiny; }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The padded slab tests of core/bvh/slab_ray.h for several boxes in lanes. All names contain the
-// lanes' type, and so the instruction set (core/math/wide.h).
+// The padded slab tests of core/bvh/slab_ray.h for several boxes in lanes. The lanes' type, and so
+// the instruction set, is part of all names (core/math/wide.h).
 #pragma once
 
 #include "core/bvh/bvh.h"
@@ -9,9 +9,9 @@
 
 namespace minkray {
 
-/// Parameters at which the near and far planes of an axis are met, in lanes. A ray within a plane
-/// gives 0 * infinity = NaN: the order of operands in max and min drops it, so the plane does not
-/// limit the ray.
+/// Parameters at which the ray meets the near and far planes of an axis, in lanes. A ray within a
+/// plane gives 0 * infinity = NaN. The order of operands in max and min drops NaN, so such a plane
+/// does not limit the ray.
 template <class Lanes>
 struct SlabInterval {
   Lanes enter, leave;
@@ -24,7 +24,8 @@ struct SlabInterval {
   Mask<Lanes> is_met() const { return enter <= leave * Lanes(slab_padding) + Lanes(slab_tiny); }
 };
 
-/// Returns a bit for each box of the node that is met up to t_max; writes the parameters of entry.
+/// Returns one bit per box of the node: 1 if the ray meets the box up to t_max. Writes the
+/// parameters of entry.
 template <class Lanes>
 std::uint32_t boxes_met(const BvhNode& node, const SlabNumbers& ray, float t_max,
                         float (&enters)[bvh_width]) {

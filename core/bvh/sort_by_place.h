@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Sorts keys by their places on a curve, with several threads.
+// Sorts keys by their positions (places) on a space-filling curve, with several threads.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace minkray {
 
-/// A place in the upper 32 bits, an index in the lower ones.
+/// A place in the upper 32 bits, an index in the lower 32 bits.
 using KeyedPlace = std::uint64_t;
 
 /// Sorts by the lowest `bits` bits of the places. The sort is stable: the result does not depend on

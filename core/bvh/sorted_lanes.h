@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Puts lanes of AVX2 in order: those of a set from the lowest up, and keys by a network that sorts
-// several registers at once. All has internal linkage: see core/math/wide.h.
+// Orders AVX2 lanes: moves the lanes of a set to the front, and sorts keys by a sorting network for
+// several registers at once. All functions have internal linkage (core/math/wide.h explains why).
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 namespace minkray {
 namespace {
 
-/// For each set of lanes, their numbers from the lowest up.
+/// For each set of lanes: the numbers of its lanes, in ascending order.
 struct LanesOfSet {
   std::uint64_t lanes[256] = {};
   constexpr LanesOfSet() {

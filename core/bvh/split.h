@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Splits a range of primitives in two: the step in which the builders of hierarchies differ.
+// Splits a range of primitives in two. This is the only step in which the BVH builders differ.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,8 @@ struct BuildHalves {
   int axis = 0;  ///< axis of the area splitter's split
 };
 
-/// From this depth on, ranges are split into halves of equal count, at most 32 more levels.
+/// From this depth on, ranges are split into halves of equal count, which gives at most 32 more
+/// levels.
 inline constexpr int free_split_depth = 46;
 
 /// Splits by the surface area heuristic in bins on each axis (Wald, "On fast Construction of
@@ -34,7 +35,7 @@ class AreaSplitter {
   explicit AreaSplitter(std::span<Primitive> primitives) : primitives_(primitives) {}
   BuildRange whole() const;
   BuildHalves split(const BuildRange& range) const;
-  /// The range of a node with the largest weight is split next.
+  /// Weight of a range; the range with the largest weight in a node is split next.
   static double weight(const BuildRange& range) { return range.extent.box.area(); }
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Walks many incoherent rays through a hierarchy. Several rays take turns, one node each, so that
-// the processor works on the steps of all of them at once (docs/decisions/many-rays.md).
+// Traverses a hierarchy with many incoherent rays. Several rays take turns, one node each, so that
+// the processor executes their steps in parallel (docs/decisions/many-rays.md).
 #pragma once
 
 #include <span>
@@ -12,17 +12,17 @@ namespace minkray {
 /// Largest number of pairs per call of PairVisitor::visit.
 inline constexpr std::size_t most_pairs_at_once = 5 * std::size_t{bvh_width};
 
-/// Receives the pairs of rays and boxes that meet. Rounding may add some. A plain function, so
-/// that kernels share no code.
+/// Receives the pairs of rays and boxes that meet. Rounding may add pairs. `visit` is a plain
+/// function, so that kernels for different instruction sets share no code.
 struct PairVisitor {
-  /// May lower numbers.t_max of any ray; a negative one ends the ray's walk.
+  /// May lower numbers.t_max of any ray; a negative t_max ends the ray's traversal.
   void (*visit)(void* context, const std::uint32_t* rays, const std::uint32_t* boxes,
                 std::size_t pairs);
   void* context;
 };
 
-/// Visits the boxes that each ray meets with 0 <= t <= t_max; rounding may add some. A ray's boxes
-/// come in no particular order. Returns the number of visited nodes.
+/// Visits the boxes that each ray meets with 0 <= t <= t_max, in no particular order; rounding may
+/// add boxes. Returns the number of visited nodes.
 std::uint64_t walk_stream(const Bvh& bvh, std::span<SlabRay> rays, const PairVisitor& visitor,
                           WalkSet set = best_walk_set());
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Walks rays through a bounding volume hierarchy, near boxes first.
+// Traverses a bounding volume hierarchy with a ray, near boxes first.
 #pragma once
 
 #include <type_traits>
@@ -10,7 +10,7 @@
 
 namespace minkray {
 
-/// The instruction sets that walks are compiled for. All find the same boxes.
+/// The instruction sets that traversals are compiled for. All find the same boxes.
 enum class WalkSet : unsigned char { sse2, avx2 };
 WalkSet best_walk_set();
 
@@ -29,8 +29,9 @@ void expected(const void* context, std::uint32_t box) {
 }
 
 /// Calls on_box(index) for the boxes that the ray meets with 0 <= t <= t_max; rounding may add
-/// some. on_box may lower ray.numbers.t_max, and ends the walk by returning true. Returns the
-/// number of visited nodes. Calls on_expected(index) in advance for boxes that may be visited soon.
+/// boxes. on_box may lower ray.numbers.t_max, and ends the traversal by returning true. Calls
+/// on_expected(index) in advance for boxes that may be visited soon. Returns the number of visited
+/// nodes.
 template <class OnBox, class OnExpected = ExpectNothing>
 std::uint32_t traverse(const Bvh& bvh, const SlabRay& ray, OnBox&& on_box,
                        const OnExpected& on_expected = {}, WalkSet set = best_walk_set()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Walks through a hierarchy, one function per instruction set: traverse_kernel.inl is compiled once
-// with each set's flags (core/CMakeLists.txt).
+// Traversals of a hierarchy, one function per instruction set: traverse_kernel.inl is compiled once
+// with the flags of each set (core/CMakeLists.txt).
 #pragma once
 
 #include "core/bvh/bvh.h"
@@ -8,9 +8,10 @@
 
 namespace minkray {
 
-/// Receives the boxes that are met. Plain functions, so that kernels share no code.
+/// Receives the boxes that are met. Plain functions, so that kernels for different instruction sets
+/// share no code.
 struct BoxVisitor {
-  /// Returns true to end the walk. May lower t_max of the ray.
+  /// Returns true to end the traversal. May lower t_max of the ray.
   bool (*visit)(void* context, std::uint32_t box);
   void* context;
   /// Receives boxes that may be visited soon, so that their contents can be prefetched.

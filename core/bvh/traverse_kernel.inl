@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The body of the walk, near boxes first. MINKRAY_WALK_KERNEL is the function's name. Everything else
-// here has the type of the lanes, and so the instruction set, in its name: see core/math/wide.h.
+// Body of the traversal, near boxes first. MINKRAY_WALK_KERNEL is the function's name; all other
+// names here contain the instruction set (core/math/wide.h).
 #include "core/bvh/slab_test.h"
 #include "core/bvh/traverse_kernel.h"
 
@@ -21,17 +21,17 @@ std::uint32_t MINKRAY_WALK_KERNEL(const BvhNode* nodes, const SlabNumbers& ray,
     ++visited;
     float enters[bvh_width];
     std::uint32_t met = boxes_met<Lanes>(nodes[node], ray, ray.t_max, enters);
-    // The nearest on top.
+    // Sorts the children on the stack, the nearest on top.
     for (const int bottom = top; met != 0; met &= met - 1) {
       const int child = __builtin_ctz(met);
       const std::uint32_t what = nodes[node].children[child];
-      if (what == BvhNode::none) break;  // rays from beyond float's range
+      if (what == BvhNode::none) break;  // happens for origins outside the range of float
       if (what & BvhNode::leaf) visitor.expect(visitor.expect_context, what & ~BvhNode::leaf);
       int at = top++;
       for (; at > bottom && stack[at - 1].enter < enters[child]; --at) stack[at] = stack[at - 1];
       stack[at] = {what, enters[child]};
     }
-    // The next node, and the boxes before it, if hits found meanwhile have not made them pointless.
+    // Visits boxes up to the next node; skips those beyond hits found in the meantime.
     for (;;) {
       if (top == 0) return visited;
       const auto [what, enter] = stack[--top];

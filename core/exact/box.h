@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a box around the origin: where it enters the last of the three slabs,
-// if it has not left any of them before.
+// Finds where a line enters a box around the origin. This is where the line enters the last of the
+// three slabs, unless it leaves another slab before.
 #pragma once
 
 #include "core/query/line.h"
@@ -31,7 +31,8 @@ template <class W, class Sizes>
   };
   entry.normal = -axis(x.in == t, y.in == t);
   if (any(entry.miss)) {
-    // The planes that prove the miss: the last one entered and the first one left, by the bounds.
+    // The planes that prove the miss: the last plane entered and the first plane left, by the
+    // bounds.
     const Vec3<W> entered = -axis(x.in - x.e == lo, y.in - y.e == lo);
     const Vec3<W> left = axis(x.out + x.e == out_hi, y.out + y.e == out_hi);
     entry.normal = select<W>(entry.miss, between(entered, left, d), entry.normal);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a capsule along the z axis: on its mantle or, if the line enters the
-// infinite mantle beyond an end, on the ball at that end.
+// Finds where a line enters a capsule along the z axis: on the cylinder or, if the line enters the
+// infinite cylinder beyond an end, on the ball at that end.
 #pragma once
 
 #include "core/exact/ball.h"
@@ -27,8 +27,8 @@ template <class W, class S>
   entry.t = round.in;
   entry.e = W(2) * round.e;
   entry.normal = select<W>(by_side, round.normal(-1, r, line), entry.normal);
-  // At a distance w from the circle where mantle and ball meet, their formulas differ by w^2 / 2r
-  // across the ray. In doubt only if w^2 > E r and the line enters within w of that circle.
+  // At a distance w from the circle where cylinder and ball meet, their formulas differ by w^2 / 2r
+  // across the ray. Undecided only if w^2 > E r and the line enters within w of that circle.
   const W w2 = entry.e * entry.e * line.dd;
   const Mask<W> unsure = (w2 > r * line.E) & (beyond * beyond < w2);
 

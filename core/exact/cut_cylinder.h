@@ -12,7 +12,7 @@ namespace minkray::exact {
 template <class W>
 struct Cut {
   Vec3<W> normal;
-  W in, out, e;  ///< parameters at which the line enters and leaves it; their error
+  W in, out, e;  ///< parameters at which the line enters and leaves; their error
 
   Cut(const double* outward, double offset, const Line<W>& line)
       : normal(W(outward[0]), W(outward[1]), W(outward[2])) {
@@ -53,7 +53,7 @@ template <class W>
   using std::min;
   const double r = sizes[0];
   Entry<W> entry;
-  // For lines far from the ball, the rounding of planes would exceed E.
+  // Excludes lines far from the ball, for which the rounding of planes would exceed E.
   const W reach = W(R) + W(2) * line.E;
   const Mask<W> misses_ball = open & (line.s.squaredNorm() > reach * reach);
   const Mantle<W> round(r, line, open & !misses_ball);

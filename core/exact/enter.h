@@ -15,8 +15,8 @@
 
 namespace minkray::exact {
 
-/// Forms that `enter` calls out of line: inlined, they would cost the other forms registers. A
-/// second capsule and a call made spheres a fifth slower (docs/decisions/solvers.md).
+/// Enters the forms that are not inlined in `enter`. Inlined, these would cost the other forms
+/// registers: a second capsule and a call made spheres a fifth slower (docs/decisions/solvers.md).
 template <class W>
 [[gnu::noinline]] Entry<W> enter_out_of_line(const Form& form, const Line<W>& line,
                                              const Mask<W>& open) {
@@ -32,7 +32,7 @@ template <class W>
   }
 }
 
-/// The line is given in the form's frame; only `open` lanes count.
+/// The line is in the form's frame. Results are valid only in `open` lanes.
 template <class W>
 [[gnu::always_inline]] inline Entry<W> enter(const Form& form, const Line<W>& line,
                                              const Mask<W>& open) {

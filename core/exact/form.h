@@ -12,15 +12,15 @@ namespace minkray::exact {
 
 class Polytope;
 
-/// The form's frame is the shape's, moved to the form's middle and multiplied by `scale` along the
-/// axes (which makes ellipsoids balls).
+/// The form's frame is the shape's frame, moved to the form's middle and scaled by `scale` along
+/// the axes (so that ellipsoids become balls).
 struct Form {
   FormKind kind = FormKind::none;
   bool is_scaled = false, is_off_centre = false, is_upside_down = false;
-  double R = 0;                     ///< radius of a ball around the form, in its frame
-  double inner_R = 0;               ///< the same before scaling
+  double R = 0;                     ///< radius of a ball around the form, in the form's frame
+  double inner_R = 0;               ///< this radius before scaling
   double largest_scale = 1;         ///< the greatest of `scale`
-  Vec3<double> offset = {0, 0, 0};  ///< from the form's middle to the ball's, before scaling
+  Vec3<double> offset = {0, 0, 0};  ///< from the form's middle to the ball's centre, before scaling
   Vec3<double> scale = {1, 1, 1};
   double slope = 0;  ///< radius of a cone per height below its apex
   double sine = 0;   ///< sine of the cone's half angle

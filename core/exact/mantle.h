@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters and leaves an infinite cylinder around the z axis: shared by cylinders
-// and capsules.
+// Finds where a line enters and leaves an infinite cylinder around the z axis (the mantle of
+// cylinders and capsules).
 #pragma once
 
 #include "core/exact/ball.h"
@@ -9,10 +9,10 @@ namespace minkray::exact {
 
 template <class W>
 struct Mantle {
-  Mask<W> hit, miss;  ///< neither: in doubt
+  Mask<W> hit, miss;  ///< neither: undecided
   W in, out, e;       ///< parameters of entry and exit, and the error of both
   W x, y;             ///< point of the line closest to the axis
-  W half;             ///< parameter from that point to the entry or exit
+  W half;             ///< parameter difference from that point to the entry or exit
 
   template <class S>
   Mantle(const S& size, const Line<W>& line, const Mask<W>& open) {

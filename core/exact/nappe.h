@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters and leaves an infinite cone around the z axis, below its apex: shared
-// by frustums and tapered capsules.
+// Finds where a line enters and leaves an infinite cone around the z axis, below the apex (the
+// lower nappe of a double cone). Used by frustums and tapered capsules.
 #pragma once
 
 #include "core/query/line.h"
 
 namespace minkray::exact {
 
-/// Parameter greater than all that matter, but small enough that its products with a line's
-/// coordinates do not overflow.
+/// Parameter greater than all that matter. Products with a line's coordinates do not overflow.
 template <class W>
 inline constexpr Lane<W> endless = 1 / least_to_square<Lane<W>>;
 
@@ -16,7 +15,7 @@ inline constexpr Lane<W> endless = 1 / least_to_square<Lane<W>>;
 /// 2 max(R, apex) of the apex.
 template <class W>
 struct Nappe {
-  Mask<W> hit, miss;       ///< of both nappes, above and below the apex; neither: in doubt
+  Mask<W> hit, miss;       ///< of both nappes, above and below the apex; neither: undecided
   W in, in_e, out, out_e;  ///< parameters of entry and exit, and their errors; -endless or
                            ///< endless if there is no entry or exit
 
@@ -41,7 +40,7 @@ struct Nappe {
     hit = open & (D > margin);
     miss = open & (D < -margin);
     a_ = d.x() * d.x() + d.y() * d.y() - square * d.z() * d.z();
-    // The line is less steep than the mantle: it enters and leaves the same nappe.
+    // A line that is less steep than the cone enters and leaves the same nappe.
     const Mask<W> is_flat = a_ > W(0);
     const W a = select(is_flat, a_, min(a_, W(-least_component<W>)));
     const W b = p.x() * d.x() + p.y() * d.y() - square * p.z() * d.z();
@@ -51,8 +50,8 @@ struct Nappe {
     const W per_R = length * (W(1) / W(R)), base = W(2) * size * (W(1) + square) * line.E / root;
     const W w1 = W(1) + abs(t1) * per_R, w2 = W(1) + abs(t2) * per_R;
     const W e1 = base * w1 * w1, e2 = base * w2 * w2;
-    // A steep line crosses the mantle once in each nappe: downwards, it enters this one at the
-    // greater parameter; upwards, it leaves this one at the lesser.
+    // A steep line crosses the surface once in each nappe. A line that goes down enters the lower
+    // nappe at the greater parameter; a line that goes up leaves it at the lesser parameter.
     const Mask<W> first = t1 < t2, down = d.z() < W(0), enters = is_flat | down,
                   leaves = is_flat | !down;
     const Mask<W> in_first = (is_flat & first) | ((!is_flat) & !first);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Finds where a line enters a rounded box around the origin. The slabs of the inner box divide
-// space into shares: the regions of faces, edges and corners. From where the line enters the box
-// grown by the radius, it is followed through the shares to the first one whose plane, cylinder or
-// ball it enters there.
+// space into shares: the regions of faces, edges and corners. Starts where the line enters the box
+// grown by the radius, and follows the line through the shares. The first share in which the line
+// enters the share's plane, cylinder or ball gives the result.
 #pragma once
 
 #include "core/exact/ball.h"
@@ -62,8 +62,8 @@ template <class W, class Sizes>
   entry.t = t;
   entry.e = select(by_x, e.x(), select(by_y, e.y(), e.z()));
   entry.normal = select<W>(by_face, Vec3<W>(-axis(by_x, by_y)), entry.normal);
-  // At a distance w from the end of a share, the surface of the next one is about w^2 / 2r away. In
-  // doubt only if w^2 > E r (core/exact/capsule.h).
+  // At a distance w from the end of a share, the surface of the next share is about w^2 / 2r away.
+  // Undecided only if w^2 > E r (core/exact/capsule.h).
   const W area = r * line.E;
   const W w2 = entry.e * entry.e * line.dd;
   entry.hit = by_face & !((w2 > area) & (outside * outside < w2));
@@ -78,7 +78,7 @@ template <class W, class Sizes>
   }
   W from = t;
   for (int share = 0; share < most_shares && any(going); ++share) {
-    // The share that begins at `from`, given by the axes whose slab does not contain the line.
+    // The share that begins at `from`: the axes along which the line is outside the slab.
     W until(std::numeric_limits<Lane<W>>::infinity());
     Vec3<W> p, along;
     for (int i = 0; i < 3; ++i) {
@@ -105,7 +105,7 @@ template <class W, class Sizes>
     const Vec3<W> outward = select<W>(hit, Vec3<W>((x - along * half) * (W(1) / r)), x);
     entry.normal = select<W>(hit | miss, Vec3<W>(outward.cwiseProduct(sign)), entry.normal);
     if (share == 0 && any(miss)) {
-      // A line that already moves away from the inner box where it enters the grown one.
+      // True if the line moves away from the inner box where it enters the grown box.
       const Mask<W> recedes = miss & (k < from);
       const Vec3<W> there = (p + along * from).cwiseProduct(sign);
       const Vec3<W> separating = between(Vec3<W>(-axis(by_x, by_y)), there, line.d);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finds where a line enters a tapered capsule along the z axis, with its larger ball below: on the
-// mantle of the cone that touches both balls or, if the line enters the cone beyond an end, on the
-// ball at that end.
+// cone that touches both balls or, if the line enters the cone beyond an end, on the ball at that
+// end.
 #pragma once
 
 #include "core/exact/ball.h"
@@ -31,7 +31,7 @@ template <class W, class S>
   entry.e = W(2) * round.in_e;
   if (any(by_side))
     entry.normal = select<W>(by_side, round.normal(round.in, sine, line), entry.normal);
-  // In doubt as for a capsule (core/exact/capsule.h).
+  // Undecided as for a capsule (core/exact/capsule.h).
   const W w2 = entry.e * entry.e * line.dd;
   const W from_low = z - low, from_high = z - high;
   const Mask<W> unsure =

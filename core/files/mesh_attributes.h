@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Attributes of a mesh's triangles that only pictures need: normals, texture coordinates and
-// materials. Normals and coordinates have numbers of their own, so vertices can be merged freely.
+// materials. Normals and coordinates have their own indices, so vertices can be merged freely.
 #pragma once
 
 #include <array>
@@ -20,40 +20,41 @@ struct MeshAttributes {
   static constexpr Numbers no_numbers = {none, none, none};
 
   std::vector<Vec3<float>> normals;  ///< of unit length; zero: unusable
-  /// Texture coordinates, v from the top down as the rows of pictures.
+  /// Texture coordinates; v goes from the top down, as the rows of pictures.
   std::vector<std::array<float, 2>> uvs;
-  /// Numbers of the three corners' normals and coordinates, by triangle; empty: none has any.
+  /// Numbers of the three corners' normals and coordinates, by triangle; empty if no triangle has
+  /// any.
   std::vector<Numbers> normal_of, uv_of;
-  std::vector<std::uint32_t> material_of;  ///< by triangle; empty: none has one
-  std::vector<std::string> materials;      ///< names of an OBJ's, by number
-  std::vector<std::string> libraries;      ///< files that it names for them
-  /// Triangles whose normals or coordinates are left out because they are wrong.
+  std::vector<std::uint32_t> material_of;  ///< by triangle; empty if no triangle has a material
+  std::vector<std::string> materials;      ///< names of an OBJ file's materials, by number
+  std::vector<std::string> libraries;      ///< material files that an OBJ file names
+  /// Numbers of triangles whose invalid normals or coordinates are omitted.
   std::size_t bad_normals = 0, bad_uvs = 0;
 
   bool any() const { return !normal_of.empty() || !uv_of.empty() || !material_of.empty(); }
 };
 
-/// Converts to unit length; zero if the vector is zero or not finite.
+/// Scales to unit length; zero if the vector is zero or not finite.
 Vec3<float> attribute_normal(const Vec3<double>& normal);
 
-/// Leaves out and counts triangles with numbers out of range, zero normals or coordinates that are
-/// not finite. Lists in which nothing is left become empty.
+/// Omits and counts attributes with numbers out of range, zero normals or coordinates that are not
+/// finite. Lists without valid items become empty.
 void settle(MeshAttributes& attributes);
 
-/// Attributes of some triangles, by their numbers, without what no triangle uses.
+/// Attributes of some triangles, by their numbers, without attributes that no triangle uses.
 MeshAttributes attributes_of(const MeshAttributes& all, std::span<const std::uint32_t> triangles);
 
-/// Adds those of `count` triangles, materials by their numbers plus `first_material`, behind those
-/// of `before` triangles.
+/// Appends the attributes of `count` triangles to those of `before` triangles. Material numbers
+/// increase by `first_material`.
 void append(MeshAttributes& all, std::size_t before, const MeshAttributes& more, std::size_t count,
             std::uint32_t first_material);
 
-/// Maps normals by the inverse transpose of a linear map, and swaps two corners of each triangle if
-/// the triangles' are.
+/// Maps normals by the inverse transpose of a linear map. Swaps two corners of each triangle if the
+/// map mirrors, as for the mesh's triangles.
 void map_normals(MeshAttributes& attributes, const Mat3<double>& inverse_transpose);
 void swap_corners(MeshAttributes& attributes);
 
-/// Describes what was left out; empty if nothing was.
+/// Describes omitted attributes; empty if there are none.
 std::vector<std::string> notes_of(const MeshAttributes& attributes);
 
 /// Mean normals of the triangles around each vertex, weighted by their angles there. Triangles that

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Reads the vertices of mesh files: Wavefront OBJ, and STL as text or binary. Only positions are
-// used, for convex hulls; faces define parts and reveal truncated files, which are rejected. Not
-// read by tinyobjloader, which takes a malformed coordinate for 0, 1e999 for infinity, and rounds
-// 0.3 to another double than C++ does.
+// Reads the vertices of mesh files: Wavefront OBJ, and STL as text or binary. Convex hulls use only
+// positions; faces define parts and reveal truncated files, which are rejected. Does not use
+// tinyobjloader, which reads a malformed coordinate as 0 and 1e999 as infinity, and rounds 0.3 to a
+// different double than C++.
 #pragma once
 
 #include <array>
@@ -17,26 +17,26 @@ namespace minkray {
 
 struct MeshAttributes;
 
-/// The faces of a mesh as triangles that hold each vertex of each face: a face of more corners is a
-/// fan, one of fewer has its last corner again. In the file's order.
+/// The faces of a mesh as triangles, in the file's order. A face with more than three corners
+/// becomes a fan; a face with fewer repeats its last corner.
 struct MeshTriangles {
   std::vector<std::array<std::uint32_t, 3>> corners;  ///< the vertices' numbers, from 0 on
-  /// The group of each triangle: of an OBJ the faces below an "o" or "g" with a name of its own, of
-  /// an STL a solid.
+  /// The group of each triangle. In an OBJ file: the faces below an "o" or "g" line with a new
+  /// name. In an STL file: a solid.
   std::vector<std::uint32_t> groups;
 };
 
-/// All vertices, in the file's order and unit; at least one, each finite. If `triangles` are
-/// wanted they are added there, and an OBJ's attributes to `attributes`, which still must be
-/// settled. Throws std::runtime_error with the mistake in the file, without
-/// its name: "line 12: ...".
+/// Returns all vertices, in the file's order and unit: at least one, each finite. If not null,
+/// `triangles` receives the triangles, and `attributes` those of an OBJ file, for which settle()
+/// must still be called. Throws std::runtime_error that describes the error in the file, without
+/// the file's name: "line 12: ...".
 std::vector<Vec3<double>> read_mesh_vertices(const std::filesystem::path& path,
                                              MeshTriangles* triangles = nullptr,
                                              MeshAttributes* attributes = nullptr);
 
 enum class MeshFormat : unsigned char { obj, stl };
 
-/// Reads a file's contents.
+/// Same for a file's contents.
 std::vector<Vec3<double>> mesh_vertices(std::string_view contents, MeshFormat format,
                                         MeshTriangles* triangles = nullptr,
                                         MeshAttributes* attributes = nullptr);

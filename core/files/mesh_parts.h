@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The parts of a mesh, so that each can have a hull of its own: as the file groups them, or as
-// they hang together.
+// Splits a mesh into parts, so that each can have its own hull: by the file's groups, or by
+// connected components.
 #pragma once
 
 #include <array>
@@ -18,28 +18,28 @@ namespace minkray {
 
 enum class MeshSplit : unsigned char { none, groups, components };
 
-/// Amount of a mesh file to read, each with all before it.
+/// Amount of a mesh file to read; each value includes the previous ones.
 enum class MeshDetail : unsigned char { vertices, triangles, attributes };
 
-/// Vertices, and the end of each part that the file distinguishes: at least one.
+/// Vertices of a mesh file (at least one), and its parts.
 struct MeshParts {
   std::vector<Vec3<double>> vertices;
-  std::vector<std::vector<std::uint32_t>> parts = {};  ///< vertices of each; empty: all are one
+  std::vector<std::vector<std::uint32_t>> parts = {};  ///< vertices by part; empty: a single part
   std::vector<std::array<std::uint32_t, 3>> triangles = {};  ///< of all parts, if requested
-  MeshAttributes attributes = {};  ///< settled, of the triangles, if requested
+  MeshAttributes attributes = {};  ///< of the triangles, after settle(), if requested
 };
 
-/// Reads OBJ and STL as read_mesh_vertices() does. Groups are what follows an "o" or "g" with
-/// another name, and STL's solids. Each vertex that a face names is in a part; of a file without
-/// faces all are one. Throws std::runtime_error without the file's name.
+/// Reads OBJ and STL files like read_mesh_vertices(). A group is all that follows an "o" or "g"
+/// line with another name, or a solid of an STL file. Each vertex that a face uses is in a part. A
+/// file without faces is a single part. Throws std::runtime_error without the file's name.
 MeshParts read_mesh_parts(const std::filesystem::path& file, MeshSplit split,
                           MeshDetail detail = MeshDetail::vertices);
 
-/// Reads a file's contents.
+/// Same for a file's contents.
 MeshParts mesh_parts(std::string_view contents, MeshFormat format, MeshSplit split);
 
-/// The vertices of each connected part, parts in the order of their first triangle. Vertices at the
-/// same place are one. Vertices of no triangle are left out.
+/// Returns the vertices of each connected part, in the order of the parts' first triangles.
+/// Vertices at the same position count as one. Omits vertices that no triangle uses.
 std::vector<std::vector<std::uint32_t>> components_of(
     std::span<const Vec3<double>> vertices,
     std::span<const std::array<std::uint32_t, 3>> triangles);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Wavefront material libraries (.mtl): diffuse colours and their pictures.
+// Wavefront material libraries (.mtl): diffuse colours and textures.
 #pragma once
 
 #include <array>
@@ -14,14 +14,14 @@ namespace minkray {
 struct MtlMaterial {
   std::optional<std::array<double, 3>> colour = {};  ///< Kd, sRGB from 0 to 1
   double opacity = 1;                                ///< d
-  std::string picture = {};  ///< map_Kd: a file's name, relative to the library's folder; or empty
+  std::string picture = {};  ///< map_Kd: file name relative to the library's folder; or empty
 };
 
-/// Adds the materials of a library by their names. Lines that are wrong are ignored.
+/// Adds the materials of a library by their names. Ignores invalid lines.
 void read_mtl(std::string_view text, std::map<std::string, MtlMaterial>& materials);
 
-/// The file of a picture that a mesh file names: as named, or by its last name in the folder, for
-/// absolute names of other machines.
+/// Returns the file of a picture that a mesh file names. For absolute names from other machines,
+/// this is the file with the last part of the name in `folder`.
 std::filesystem::path picture_file(const std::filesystem::path& folder, std::string name);
 
 }  // namespace minkray

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Wavefront OBJ: vertices, faces and groups, and normals, texture coordinates and names of
-// materials where they are wanted.
+// Wavefront OBJ: vertices, faces and groups; on request also normals, texture coordinates and names
+// of materials.
 #pragma once
 
 #include <string_view>
@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// Returns all vertices, in the file's order; faces go to the fans.
+/// Returns all vertices, in the file's order. Adds faces to `fans`.
 std::vector<Vec3<double>> vertices_of_obj(std::string_view text, TriangleFans fans);
 
 }  // namespace minkray

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lines, words and numbers of mesh files that are text.
+// Lines, words and numbers of mesh files in text format.
 #pragma once
 
 #include <algorithm>
@@ -15,14 +15,15 @@
 
 namespace minkray::text_file {
 
-/// Editors on Windows begin UTF-8 with a mark.
+/// Removes the mark with which editors on Windows begin UTF-8.
 inline std::string_view without_byte_order_mark(std::string_view text) {
   constexpr std::string_view mark = "\xef\xbb\xbf";
   if (text.starts_with(mark)) text.remove_prefix(mark.size());
   return text;
 }
 
-/// Cuts the next line off the front of the text. Lines end by \n, \r\n, or as on old Macs by \r.
+/// Removes the next line from the front of the text and returns it. Lines end with \n, \r\n, or (on
+/// old Macs) \r.
 inline std::string_view next_line(std::string_view& text) {
   const std::string_view line = text.substr(0, text.find_first_of("\r\n"));
   text.remove_prefix(line.size());
@@ -30,7 +31,7 @@ inline std::string_view next_line(std::string_view& text) {
   return line;
 }
 
-/// Cuts the next word off the front of the line.
+/// Removes the next word from the front of the line and returns it.
 inline std::string_view next_word(std::string_view& line) {
   const std::string_view blanks = " \t";
   line.remove_prefix(std::min(line.find_first_not_of(blanks), line.size()));
@@ -43,7 +44,7 @@ inline std::string place(std::size_t line_number) {
   return "line " + std::to_string(line_number) + ": ";
 }
 
-/// True if the whole word is a number, which may have a plus sign.
+/// True if the complete word is a number, which may have a plus sign.
 template <class Number>
 bool read_number(std::string_view word, Number& number) {
   if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Triangles of faces that are given corner by corner.
+// Makes triangles of faces that are given corner by corner.
 #pragma once
 
 #include "core/files/mesh_attributes.h"
@@ -12,7 +12,7 @@ struct FaceCorner {
   std::uint32_t vertex = 0, uv = MeshAttributes::none, normal = MeshAttributes::none;
 };
 
-/// Adds triangles, and their attributes, where they are wanted.
+/// Adds triangles, and their attributes, if requested.
 class TriangleFans {
  public:
   TriangleFans(MeshTriangles* triangles, MeshAttributes* attributes)
@@ -21,9 +21,9 @@ class TriangleFans {
   bool are_wanted() const { return triangles_ != nullptr; }
   MeshAttributes* attributes() const { return attributes_; }
 
-  /// Puts the faces from here on into this group.
+  /// Puts the following faces into this group.
   void begin_group(std::uint32_t group) { group_ = group; }
-  /// Gives the faces from here on this material.
+  /// Gives the following faces this material.
   void begin_material(std::uint32_t material) { material_ = material; }
 
   void add_corner(const FaceCorner& corner) {

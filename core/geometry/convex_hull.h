@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The convex hull of points, and the polytope that half-spaces cut out (its dual). Solid hulls
-// come from Qhull: Barber, Dobkin and Huhdanpaa, "The Quickhull Algorithm for Convex Hulls"
-// (1996), which convex_hull.cpp alone includes; flat ones from Andrew's monotone chain (1979).
+// The convex hull of points, and the polytope that is the intersection of half-spaces (the dual
+// problem). Uses Qhull for solid hulls (Barber, Dobkin and Huhdanpaa, "The Quickhull Algorithm for
+// Convex Hulls", 1996; only convex_hull.cpp includes it), and Andrew's monotone chain (1979) for
+// flat hulls.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +13,9 @@
 
 namespace minkray {
 
-/// Polygons as lists of indices, one after the other.
+/// Polygons as consecutive lists of indices.
 struct Polygons {
-  std::vector<std::uint32_t> begin = {0};  ///< begin of each polygon's corners, then the end
+  std::vector<std::uint32_t> begin = {0};  ///< begin of each polygon's corners; then the end
   std::vector<std::uint32_t> corners;
 
   std::size_t size() const { return begin.size() - 1; }
@@ -28,8 +29,8 @@ struct Polygons {
   }
 };
 
-/// A frame in which a set of points has about equal extents. The axes are orthogonal, the first
-/// along the longest extent. Hulls are affine invariant, so they may be computed in this frame.
+/// A frame in which a set of points has about equal extents. The axes are orthogonal; the first is
+/// along the longest extent. Hulls are affine invariant, so they can be computed in this frame.
 struct RoundFrame {
   Vec3<double> origin = Vec3<double>::Zero();    ///< one of the points
   Mat3<double> axes = Mat3<double>::Identity();  ///< columns of unit length
@@ -61,9 +62,9 @@ struct ConvexHull {
 };
 
 /// Returns the hull of one or more finite points. A set thinner than the rounding of its
-/// coordinates counts as flat. Otherwise a point is dropped only if it lies in the hull of the
-/// others, or within rounding of it. Throws std::runtime_error if Qhull fails, or if the points'
-/// distances exceed the range of numbers.
+/// coordinates counts as flat. Otherwise a point is omitted only if it lies in the hull of the
+/// others, up to rounding. Throws std::runtime_error if Qhull fails, or if the points' distances
+/// exceed the range of numbers.
 ConvexHull convex_hull(std::span<const Vec3<double>> points);
 
 /// The points x with normal.x <= offset.
@@ -72,8 +73,8 @@ struct HalfSpace {
   double offset;
 };
 
-/// Returns the vertices of a bounded intersection of half-spaces, which must all contain `interior`
-/// well inside. Half-spaces that do not touch the intersection are allowed. Throws
+/// Returns the vertices of a bounded intersection of half-spaces. `interior` must be clearly inside
+/// all half-spaces. Half-spaces that do not touch the intersection are allowed. Throws
 /// std::runtime_error if Qhull fails or the intersection is not bounded.
 std::vector<Vec3<double>> intersection_vertices(std::span<const HalfSpace> half_spaces,
                                                 const Vec3<double>& interior);

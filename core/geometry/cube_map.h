@@ -32,8 +32,8 @@ class CubeMap {
             -1 + width * static_cast<double>(cell % resolution_), width};
   }
 
-  /// Returns the index, an integer, of the cell of a direction n of any length; up to a few
-  /// roundings at the cells' edges. NaN gets any cell.
+  /// Returns the index, an integer, of the cell of a direction n of any length. Within a few
+  /// roundings of an edge, a neighbouring cell may be returned. NaN gets any cell.
   template <class W>
   W cell_of(const Vec3<W>& n) const {
     using std::abs;

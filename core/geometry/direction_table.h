@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Lists which of a polytope's vertices can be its support point, by direction: a cube map whose
+// Lists the vertices of a polytope that can be its support point, by direction: a cube map whose
 // cells list the vertices with a normal cone that meets the cell. A query reads one short list
-// instead of all vertices; unlike hill climbing, it has no dependent steps, cannot stall where
-// rounding has left the polytope dented, and needs no vertex adjacency.
+// instead of all vertices. Unlike hill climbing, queries have no dependent steps, cannot stall on a
+// polytope that is not convex due to rounding, and need no vertex adjacency.
 #pragma once
 
 #include <cstdint>
@@ -38,8 +38,8 @@ class DirectionTable {
   std::size_t cells() const { return begin_.size() - 1; }
 
  private:
-  /// Maps directions to the hull's round frame, where the vertices' normal cones are of similar
-  /// size even if the hull is a needle: n.p = m.q + constant for m = extents * axes^T n.
+  /// Maps directions to the hull's round frame, in which the vertices' normal cones have similar
+  /// sizes even if the hull is a needle: n.p = m.q + constant for m = extents * axes^T n.
   Mat3<double> to_frame_;
   CubeMap directions_;
   std::vector<std::uint32_t> begin_;  ///< per cell, begin of its list in lists_

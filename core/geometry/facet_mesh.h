@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The triangles of a polytope's surface and their adjacency, so that a walk from triangle to
-// triangle finds where a line enters the polytope.
+// The triangles of a polytope's surface and their adjacency. A walk from triangle to triangle finds
+// where a line enters the polytope.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@
 
 namespace minkray {
 
-/// Polygons are split into fans of triangles. The data of one step of a walk are adjacent, as
-/// numbers that packets of rays read one row at a time.
+/// Polygons are split into fans of triangles. The data for one step of a walk form a row of
+/// numbers, which packets of rays read together.
 template <class T>
 class FacetMesh {
  public:
@@ -39,13 +39,13 @@ class FacetMesh {
     std::size_t neighbour(std::size_t k) const {
       return static_cast<std::size_t>(numbers_[neighbours + k]);
     }
-    /// True if no vertex of the hull reaches further along the normal than corner 0, the other
-    /// corners reach as far up to rounding, and the facet is so thick that rounding does not decide
-    /// if a line passes through it.
+    /// True if no vertex of the hull reaches further along the normal than corner 0, and the other
+    /// corners reach as far up to rounding. The facet must also be so thick that rounding does not
+    /// decide if a line passes through it.
     bool is_supported() const { return numbers_[supported] != T(0); }
 
     /// Rounds the facet to U; the result does not count as supported. If U is more precise, the
-    /// normal is computed again, since this one is rounded to T.
+    /// normal is computed again, since the stored normal is rounded to T.
     template <class U>
     typename FacetMesh<U>::Facet cast() const {
       typename FacetMesh<U>::Facet converted;
@@ -63,7 +63,7 @@ class FacetMesh {
     Vec3<T> vector_at(std::size_t i) const {
       return {numbers_[i], numbers_[i + 1], numbers_[i + 2]};
     }
-    /// Uses the shorter edges, whose rounding is least.
+    /// Uses the shorter edges, since these have the least rounding.
     void find_normal();
     /// The least height of the triangle.
     T thickness() const;
@@ -86,7 +86,7 @@ class FacetMesh {
     return converted;
   }
 
-  /// Determines which facets are supported, and by which corner; furthest(n) must return the hull's
+  /// Finds the supported facets and their supporting corners. furthest(n) must return the hull's
   /// support point in direction n.
   template <class Furthest>
   void find_supported(Furthest&& furthest) {
@@ -106,8 +106,8 @@ class FacetMesh {
     }
   }
 
-  /// False for a hull that is thinner than the rounding of its points: its facets consist of
-  /// rounding only.
+  /// False for a hull that is thinner than the rounding of its points, since its facets are then
+  /// meaningless.
   bool is_supported() const {
     return std::any_of(facets_.begin(), facets_.end(),
                        [](const Facet& facet) { return facet.numbers_[Facet::supported] > T(0); });
@@ -140,8 +140,8 @@ class FacetMesh {
   friend class FacetMesh;
   FacetMesh() = default;
 
-  /// In units of the largest coordinate: a few roundings of a reach, and many of a corner's place
-  /// in the ray's frame.
+  /// In units of the largest coordinate: a few roundings of n.p, and many of a corner's position in
+  /// the ray's frame.
   static constexpr T uneven = 16 * std::numeric_limits<T>::epsilon();
   static constexpr T thin = 64 * std::numeric_limits<T>::epsilon();
 

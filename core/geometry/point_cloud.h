@@ -26,12 +26,12 @@ class PointCloud {
   const std::vector<Vec3<T>>& points() const { return *points_; }
   const std::string& source() const { return source_; }
 
-  /// Null if the hull is flat up to rounding. The normals are those of the points before they were
-  /// rounded to T.
+  /// Null if the hull is flat up to rounding. Normals are computed before the points are rounded to
+  /// T.
   const FacetMesh<T>* facets() const { return facets_.get(); }
 
-  /// Rounds the points to U. Data computed from the points is shared, not computed again: support
-  /// points remain maximal up to the rounding of the points.
+  /// Rounds the points to U. Data computed from the points is shared, not computed again, so
+  /// support points are maximal up to the rounding of the points.
   template <class U>
   PointCloud<U> cast() const {
     PointCloud<U> converted;
@@ -69,7 +69,7 @@ class PointCloud {
   friend class PointCloud;
 
   /// Returns the index of a point furthest along n; `cell` is the table's cell of n, if there is a
-  /// table. Not inline: packets of every instruction set call it.
+  /// table. Not inline, since packets of every instruction set call this function.
   std::size_t furthest(const Vec3<T>& n, T cell) const;
 
   /// Returns the facets with their supporting corners; null if no facet is supported.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Affine maps x -> linear * x + translation, and their construction from users' notations.
+// Affine maps x -> linear * x + translation, and how to make them from quaternions and scales.
 #pragma once
 
 #include <Eigen/LU>
@@ -19,8 +19,8 @@ Mat3<T> inverse_of(const Mat3<T>& linear) {
   return Mat3<T>(linear * down).inverse() * down;
 }
 
-/// True if the rows have unit length and are perpendicular, up to a few roundings: the transpose is
-/// then as good an inverse as that of inverse_of.
+/// True if the rows have unit length and are perpendicular, up to a few roundings. The transpose is
+/// then as accurate an inverse as inverse_of.
 template <class T>
 bool keeps_lengths(const Mat3<T>& linear) {
   constexpr T rounding = T(4) * std::numeric_limits<T>::epsilon();
@@ -55,7 +55,7 @@ struct Affine {
   }
 };
 
-/// The rotation of a unit quaternion (x, y, z, w); others are normalised first.
+/// Rotation matrix of a quaternion (x, y, z, w), which is normalised first.
 template <class T>
 Mat3<T> rotation_matrix(T x, T y, T z, T w) {
   const T s = T(2) / (x * x + y * y + z * z + w * w);
@@ -66,8 +66,8 @@ Mat3<T> rotation_matrix(T x, T y, T z, T w) {
   return m;
 }
 
-/// Takes a quaternion of any length except zero. Long or short quaternions are scaled first, since
-/// their squares could leave the range of T; a unit quaternion is not changed.
+/// Takes a quaternion of any length except zero. Very long or short quaternions are scaled first,
+/// since their squares could leave the range of T; unit quaternions are not scaled.
 template <class T>
 Mat3<T> rotation_matrix_of_any(T x, T y, T z, T w) {
   using std::abs;

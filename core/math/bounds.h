@@ -15,7 +15,8 @@ struct Bounds {
   bool empty() const { return !(lower.array() <= upper.array()).all(); }
   Vec3<T> centre() const { return lower * T(0.5) + upper * T(0.5); }
   Vec3<T> half_extents() const { return upper * T(0.5) - lower * T(0.5); }
-  /// Half extents of a box around the rounded centre that contains this box.
+  /// Half extents of a box around centre() that contains this box in spite of the centre's
+  /// rounding.
   Vec3<T> reach_of_centre() const {
     const Vec3<T> middle = centre();
     return (upper - middle).cwiseMax(middle - lower);
@@ -48,8 +49,8 @@ Bounds<float> rounded_outwards(const Bounds<T>& bounds) {
   return box;
 }
 
-/// A ball that contains a shape: casts move the ray's origin near its centre, and tolerances are
-/// relative to its radius.
+/// A ball that contains a shape. Casts move the ray's origin near the ball's centre, and tolerances
+/// are relative to the radius.
 template <class T>
 struct Ball {
   Vec3<T> centre = Vec3<T>::Zero();

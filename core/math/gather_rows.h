@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads rows of a table, one row per lane: loads whole registers and transposes them, instead of
+// Reads rows of a table, one row per lane. Loads full registers and transposes them, instead of
 // inserting single numbers into lanes.
 #pragma once
 

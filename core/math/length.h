@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lengths of vectors, including vectors whose squares under- or overflow. Other vectors are as fast
-// as with norm().
+// Lengths of vectors, including vectors whose squares underflow or overflow. For other vectors as
+// fast as norm().
 #pragma once
 
 #include <cmath>

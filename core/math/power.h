@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Powers of nonnegative numbers with the same bits for one number and for a packet. The C library's
-// pow makes no such promise, and its long double logarithm differs between processors. A power is
-// accurate to a few epsilon if its logarithm is of moderate size; small powers lose digits relative
-// to themselves, but none relative to 1.
+// pow does not guarantee this, and its long double logarithm differs between processors. The error
+// of a power is a few epsilon if the logarithm is of moderate size. For small powers the relative
+// error grows, but the absolute error stays a few epsilon.
 #pragma once
 
 #include "core/math/vec.h"
@@ -39,7 +39,7 @@ W log2_of(const W& x) {
   return k + t * series * W(T(2) * log2_e);
 }
 
-/// 2^x; 0 if that would be subnormal, and the largest power of two if it would be greater.
+/// 2^x; 0 if the result would be subnormal, and the largest power of two if it would overflow.
 template <class W>
 W exp2_of(const W& x) {
   using std::max;

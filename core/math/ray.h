@@ -7,7 +7,7 @@
 namespace minkray {
 
 /// Lengths are in the scene's unit; T may be a packet, with one ray per lane. The direction may
-/// have any length (t is in units of it). If it is zero, the ray is the single point `origin`.
+/// have any length; a direction of zero makes the ray the single point `origin`.
 template <class T>
 struct Ray {
   Vec3<T> origin;

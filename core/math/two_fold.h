@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Numbers, vectors and maps with twice the digits, each stored as an unevaluated sum of two: for
-// differences of positions that are far from the origin. The error-free sums and products are those
-// of Knuth and Dekker (Dekker, "A Floating-Point Technique for Extending the Available Precision",
-// 1971). Sums of terms as large as x are known to 2^-104 x.
+// Numbers, vectors and maps with twice the digits (two-fold), each stored as an unevaluated sum of
+// two. Used for differences of positions that are far from the origin. The error-free sums and
+// products are those of Knuth and Dekker (Dekker, "A Floating-Point Technique for Extending the
+// Available Precision", 1971). The error of sums of terms as large as x is 2^-104 x.
 #pragma once
 
 #include <cmath>
@@ -126,12 +126,12 @@ TwoFoldVec3<T> image_of(const Affine<T>& map, const TwoFoldVec3<T>& point) {
   return TwoFoldMat3<T>(map.linear) * point + TwoFoldVec3<T>(map.translation);
 }
 
-/// Inverse of an invertible matrix, with each entry rounded about once whatever the condition, by
-/// Newton's iteration from the inverse in T. If that inverse has no correct digit, some entries of
-/// the result may be NaN.
+/// Inverse of an invertible matrix, by Newton's iteration from the inverse in T. Each entry is
+/// rounded about once, for any condition number. If the inverse in T has no correct digit, some
+/// entries of the result may be NaN.
 template <class T>
 Mat3<T> accurate_inverse(const TwoFoldMat3<T>& m) {
-  // A step squares the error: before the last step, at least half of the digits must be right.
+  // A step squares the error, so at least half of the digits must be correct before the last step.
   constexpr T half_the_digits = T(1) / T(1ll << (std::numeric_limits<T>::digits / 2 + 3));
   constexpr int most_steps = 8;
   TwoFoldMat3<T> inverse(inverse_of(m.high));
@@ -158,8 +158,8 @@ Mat3<T> accurate_inverse(const TwoFoldMat3<T>& m) {
     if (largest <= half_the_digits) return inverse.high;
     if (largest < T(1)) continue;
     if (is_pivoted) break;
-    // Cofactors lose digits by the square of the condition number, pivoted elimination by the
-    // condition number.
+    // The error of cofactors is proportional to the square of the condition number, that of pivoted
+    // elimination to the condition number.
     is_pivoted = true;
     inverse = TwoFoldMat3<T>(Mat3<T>(m.high.fullPivLu().inverse()));
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The vector vocabulary: Eigen's fixed-size columns and matrices over a scalar W, which is float,
+// Vector and matrix types: Eigen's fixed-size columns and matrices over a scalar W, which is float,
 // double or (for packets of rays) a vector of lanes. Code that also runs on packets uses the free
-// functions here instead of `if`.
+// functions of this file instead of `if`.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,8 +26,8 @@ using Vec = Eigen::Matrix<W, Dim, 1>;
 template <class W>
 using Mat3 = Eigen::Matrix<W, 3, 3>;
 
-/// The type of one lane of W (W itself unless W is a packet, core/math/wide.h), the type of its
-/// comparisons, and the number of lanes.
+/// The type of one lane of W (W itself unless W is a packet, core/math/wide.h), the type of
+/// comparison results, and the number of lanes.
 template <class W>
 struct LaneOf {
   using type = W;
@@ -55,7 +55,7 @@ inline bool all(bool condition) {
   return condition;
 }
 
-/// The largest power of two up to x, a positive normal number; 0 for smaller numbers.
+/// The largest power of two that is at most x; 0 if x is below the least normal number.
 template <std::floating_point W>
 W leading_power_of_two(W x) {
   if constexpr (sizeof(W) > sizeof(double)) {
@@ -128,14 +128,14 @@ template <class W>
 
 }  // namespace detail
 
-/// v divided by its length; the zero vector stays zero. Vectors whose squared length would under-
-/// or overflow are rescaled first, so that the direction keeps its digits over the whole range of
-/// W.
+/// v divided by its length; the zero vector stays zero. Vectors whose squared length would
+/// underflow or overflow are rescaled first, so directions keep their digits over the entire range
+/// of W.
 template <class W>
 [[gnu::always_inline]] inline Vec3<W> unit(const Vec3<W>& v) {
   using std::sqrt;
   using T = Lane<W>;
-  // Squares of components down to 1/16 of an ulp of the result must be normal numbers.
+  // Squares of all components that matter (at least 1/16 of an ulp of the result) must be normal.
   constexpr T smallest = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon() * T(16);
   constexpr T largest = T(1) / smallest;
   const W squared = v.squaredNorm();

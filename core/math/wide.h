@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A packet of numbers: the scalar of packets of rays. Uses the compiler's vector types, so that one
-// source serves every instruction set. `Isa` names the instruction set that the including file is
-// compiled for. As a part of the type, it gives functions for different instruction sets different
-// names, so that the linker cannot mix them up (docs/decisions/packets.md).
+// A packet of numbers: the scalar of packets of rays. Uses the compiler's vector types, so the same
+// source compiles for every instruction set. `Isa` names the instruction set that the including
+// file is compiled for. As `Isa` is a part of the type, functions for different instruction sets
+// have different names, and the linker cannot confuse them (docs/decisions/packets.md).
 #pragma once
 
 #if defined(__AVX2__)
@@ -136,8 +136,8 @@ struct Wide {
   friend Wide select(const Mask& condition, const Wide& a, const Wide& b) {
     return Wide(condition.bits ? a.lanes : b.lanes);
   }
-  /// Same as std::min and std::max: return a if a comparison with NaN fails. Machine instructions
-  /// return their second argument then, and for zeros of different signs; hence b comes first.
+  /// Same as std::min and std::max: return a if one is NaN, or for zeros of different signs.
+  /// Machine instructions then return their second argument, so b comes first in the comparison.
   friend Wide min(const Wide& a, const Wide& b) {
 #if defined(__AVX2__)
     if constexpr (sizeof(Lanes) == 32 && sizeof(T) == 4)
@@ -217,7 +217,8 @@ struct Wide {
  private:
   using Bits = typename Mask::Bits;
   static constexpr int mantissa_bits = std::numeric_limits<T>::digits - 1;
-  /// The least number without fractional digits; the bias of stored exponents.
+  /// `ones`: the least power of two from which on numbers have no fractional digits. `bias`: that
+  /// of stored exponents.
   static constexpr T ones = T(1) / std::numeric_limits<T>::epsilon();
   static constexpr T bias = T(std::numeric_limits<T>::max_exponent - 1);
   static Wide sign_bit() {
@@ -256,8 +257,8 @@ Vec3<W> per_lane(VectorOf&& vector_of) {
   using Lanes = typename W::Lanes;
   return [&]<int... i>(std::integer_sequence<int, i...>)->Vec3<W> {
     const std::array<Vec3<T>, sizeof...(i)> v = {Vec3<T>(vector_of(i))...};
-    // Sets all lanes at once: lanes that are written one by one to memory are slow to read as a
-    // whole.
+    // Sets all lanes at once. A register is slow to read from memory if its lanes were written one
+    // by one.
     return {W(Lanes{v[i].x()...}), W(Lanes{v[i].y()...}), W(Lanes{v[i].z()...})};
   }
   (std::make_integer_sequence<int, LaneOf<W>::count>());

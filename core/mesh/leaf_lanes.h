@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Finds which of a leaf's eight triangles a ray may meet: edge functions in float lanes, in
-// coordinates that are sheared along the ray (Woop, Benthin and Wald, "Watertight Ray/Triangle
-// Intersection", 2013), with a bound of their errors. Everything here has internal linkage.
+// Finds the triangles of a leaf (at most eight) that a ray may meet. Computes edge functions in
+// float lanes, in coordinates that are sheared along the ray (Woop, Benthin and Wald, "Watertight
+// Ray/Triangle Intersection", 2013), with an error bound. All functions have internal linkage.
 #pragma once
 
 #if defined(__AVX2__)
@@ -17,7 +17,7 @@ namespace {
 /// Numbers of a ray that tests of leaves use.
 struct LeafRay {
   double origin[3];      ///< by x, y, z
-  double shear[4];       ///< change of x and y while z increases by 1
+  double shear[4];       ///< change of the ray's x and y while z increases by 1
   double to_t;           ///< 1 / direction along z
   double reach, length;  ///< distances along z at t_max and at t = 1; not negative
   int x, y, z;           ///< axes; z is that of the direction's largest component
@@ -49,13 +49,17 @@ struct LeafRay {
       _mm256_cvtepu16_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(row))));
 }
 
-/// The lanes of triangles that may be met at 0 <= z <= reach. In units of the leaf, with u = 2^-24:
+/// Returns the lanes of triangles that the ray may meet at 0 <= z <= reach. In units of the leaf,
+/// with u = 2^-24:
 /// - A sheared coordinate of a true corner is at most `most`: all corners are in the leaf's cube,
-///   whose image has its middle at `middle` and half its width at 32767.5 (1 + |shear|).
-/// - Its error is at most `off`, the sum of: half a unit each for x and z (1); the rounding of cx,
-///   of the shear and of two sums (u (3 most + 2 * 65535); the bound allows 4 u most + 0.01);
-///   the rounding, in double, of the way from the ray's origin (`far`, counted twice).
-/// - A product of two is off by 2 most off + off^2 and is rounded; so is the difference of two.
+/// and
+///   the sheared cube has its middle at `middle` and half the width 32767.5 (1 + |shear|).
+/// - The error of a coordinate is at most `off`, the sum of: half a unit each for x and z (1); the
+///   rounding of cx, of the shear and of two sums (u (3 most + 2 * 65535); the bound allows
+///   4 u most + 0.01); the rounding, in double, of the vector from the ray's origin (`far`, counted
+///   twice).
+/// - The error of a product of two is 2 most off + off^2 and its rounding; the difference of two
+///   products is rounded, too.
 [[gnu::always_inline]] inline std::uint32_t lanes_that_may_be_met(const MeshLeaf& leaf,
                                                                   const LeafRay& ray) {
   constexpr double half_cube = 32767.5, off_of_units = 1.01, four_u = 0x1p-22;
@@ -100,13 +104,13 @@ struct LeafRay {
                ab = _mm256_fmsub_ps(bx, ay, _mm256_mul_ps(by, ax));
   const __m256 least = _mm256_min_ps(bc, _mm256_min_ps(ca, ab)),
                greatest = _mm256_max_ps(bc, _mm256_max_ps(ca, ab));
-  // The conversion to float rounds once more. NaN and infinity rule nothing out.
+  // The conversion to float rounds once more. With NaN or infinity no triangle is discarded.
   const __m256 bound = _mm256_set1_ps(static_cast<float>(error * (1 + 0x1p-20)));
   const __m256 is_beside =
       _mm256_and_ps(_mm256_cmp_ps(least, _mm256_xor_ps(bound, _mm256_set1_ps(-0.0f)), _CMP_LT_OQ),
                     _mm256_cmp_ps(greatest, bound, _CMP_GT_OQ));
-  // Corners are off by half a unit. Their t in cast_at_triangle is off by 2^-51 of the sum of the
-  // summands' sizes.
+  // The error of corners is half a unit. The error of t in cast_at_triangle is 2^-51 of the sum of
+  // the summands' sizes.
   const double last = (ray.reach - static_cast<double>(ray.sign) * oz) * scale + off_of_units +
                       0x1p-50 * scale * (ray.reach + away);
   const __m256 sign = _mm256_set1_ps(ray.sign);

@@ -8,8 +8,8 @@
 
 namespace minkray {
 
-/// Calls each(leaf) for all leaves below `what`: the index of a node, or that of a leaf with the
-/// leaf bit set.
+/// Calls each(leaf) for all leaves below `what`, which is the index of a node, or the index of a
+/// leaf with the leaf bit set.
 template <class Each>
 void each_leaf_below(const TriangleMesh& mesh, std::uint32_t what, Each&& each) {
   std::vector<std::uint32_t> open{what};

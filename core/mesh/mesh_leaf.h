@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Up to eight triangles of a mesh for eight float lanes. Corners are integers of 16 bits relative
-// to the leaf's cube, so that numbers in lanes are no larger than the leaf. A corner is off by up
-// to half a unit: lanes propose triangles, which are then tested in double.
+// to the leaf's cube, so numbers in lanes are no larger than the leaf. The error of a corner is up
+// to half a unit. Lanes therefore only select triangles, which are then tested in double.
 #pragma once
 
 #include <bit>
@@ -15,7 +15,7 @@ struct alignas(64) MeshLeaf {
 
   std::uint16_t corners[3][3][most];  ///< by corner, axis, triangle
   float origin[3];                    ///< least corner of the leaf's cube, in the mesh's frame
-  std::uint32_t packed_scale;         ///< the scale, whose last three bits are size() - 1
+  std::uint32_t packed_scale;         ///< the scale; its last three bits store size() - 1
   std::uint32_t triangles[most];      ///< numbers of the triangles in the mesh
 
   int size() const { return static_cast<int>(packed_scale & 7u) + 1; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Casts many rays at one mesh: the same results as one by one, but faster.
+// Casts many rays at one mesh: faster than single casts, with the same results.
 #pragma once
 
 #include <span>

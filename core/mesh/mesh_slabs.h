@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Slabs around the parts of a surface below each node, perpendicular to their mean normals. A slab
-// is thin where the surface is nearly flat, whatever its direction; an axis-aligned box is as thick
-// as the part.
+// Slabs around the surface below each BVH node, perpendicular to the surface's mean normal. If the
+// surface is nearly flat, a slab is thin for any orientation. An axis-aligned box is thin only for
+// surfaces perpendicular to an axis.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Walks of rays through a mesh in which float lanes rule out most triangles. The remaining ones are
-// tested in double, so that results are bit-identical to those of the plain walk. Requires AVX2 and
+// Traversals of a mesh in which float lanes discard most triangles. The others are tested in
+// double, so results are bit-identical to those of the traversal without lanes. Requires AVX2 and
 // FMA.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace minkray {
 
-/// Data of a walk.
+/// Data of a traversal.
 struct MeshView {
   const BvhNode* nodes;
   const MeshLeaf* leaves;
@@ -34,18 +34,18 @@ inline bool has_lanes(const TriangleMesh& mesh) {
 /// Returns cast_at_triangle for a triangle of the mesh, with its number.
 PartHit cast_at_part(const TriangleMesh& mesh, std::uint32_t triangle, const Ray<double>& ray);
 
-/// True if the error is large relative to t, as for a triangle that the ray grazes.
+/// True if the error of the hit is large relative to t, as for a triangle that the ray grazes.
 inline bool is_wide(const PartHit& hit) {
   constexpr double wide = 0x1p-20;
   return hit.error > wide * hit.t;
 }
 
-/// Same as yields_to, but handles wide hits: a wide hit yields to another one if the ray enters the
-/// box of its triangle only behind the other's t plus error.
+/// Same as yields_to, but handles wide hits: a wide hit also yields to another hit if the ray
+/// enters the box of the wide hit's triangle only beyond the other's t plus error.
 bool yields_to_or_is_wide(const TriangleMesh& mesh, const Ray<double>& ray, const PartHit& closest,
                           const PartHit& hit);
 
-/// True if the hit replaces the closest one so far, which may be none.
+/// True if the hit replaces the closest hit so far, if any.
 inline bool takes_place(const TriangleMesh& mesh, const Ray<double>& ray, const PartHit& closest,
                         const PartHit& hit) {
   if (is_wide(hit) || is_wide(closest)) [[unlikely]]
@@ -80,7 +80,7 @@ inline constexpr std::size_t rays_of_group = 32;
 enum class GroupResult : unsigned char {
   none,       ///< the directions are too different: no ray was cast
   alike,      ///< all rays have results
-  scattered,  ///< all rays have results, but meet different leaves: streams are faster
+  scattered,  ///< all rays have results, but meet different leaves, so streams are faster
 };
 GroupResult closest_parts_of_group_avx2(const MeshView& view, const PartRay* rays,
                                         std::size_t count, PartHit* hits, PartCounts& counts);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Same as cast_at_triangle, with the three edges in lanes of double: the same operations in the
-// same order, and so the same bits. Difficult cases are left to cast_at_triangle. Everything here
-// has internal linkage.
+// same order, so results have the same bits. Difficult cases are left to cast_at_triangle. All
+// functions have internal linkage.
 #pragma once
 
 #if defined(__AVX2__)
@@ -16,7 +16,7 @@ namespace {
 /// A ray for casts in lanes.
 struct CastRay {
   const Ray<double>* ray;
-  double to_t;  ///< 1 / component of the direction along `axis`, its largest
+  double to_t;  ///< 1 / component of the direction along `axis`, the largest component
   int axis;
 };
 
@@ -28,7 +28,7 @@ struct CastRay {
   return _mm256_maskload_pd(from, _mm256_setr_epi64x(-1, -1, -1, 0));
 }
 
-/// Lanes 0, 1, 2 become 1, 2, 0.
+/// Moves lanes 0, 1, 2 into the order 1, 2, 0.
 [[gnu::always_inline]] inline __m256d next_corner(__m256d of) {
   return _mm256_permute4x64_pd(of, 0xC9);
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A surface of triangles with shared vertices and its BVH: a body of many convex parts under one
-// pose.
+// A triangle mesh with shared vertices, and its BVH: a body of many convex parts with one pose.
 #pragma once
 
 #include <array>
@@ -21,15 +20,15 @@ namespace minkray {
 /// Indices of three vertices, counter-clockwise as seen from outside.
 using Corners = std::array<std::uint32_t, 3>;
 
-/// Number for no part; also that of shapes, which have only one part.
+/// Number that means "no part"; also used for shapes, which have only one part.
 inline constexpr std::uint32_t no_part = ~std::uint32_t{0};
 
-/// Defects of a mesh; vertices at the same position count as one. None of these makes results
-/// wrong: rays hit the neighbours of a triangle without area instead.
+/// Defects of a mesh; vertices at the same position count as one. Results are correct in spite of
+/// them: for example, rays hit the neighbours of a triangle without area.
 struct MeshFaults {
   std::size_t without_area = 0;
   std::size_t repeated = 0;    ///< triangles with the same vertices as another
-  std::size_t open_edges = 0;  ///< edges with different numbers of triangles on their two sides
+  std::size_t open_edges = 0;  ///< edges not used equally often in both directions
   bool is_closed() const { return open_edges == 0; }
 };
 
@@ -58,10 +57,10 @@ class TriangleMesh {
 
   /// Bounding box of the vertices that triangles use.
   const Bounds<double>& bounds() const { return bounds_; }
-  /// BVH whose children with the leaf bit are numbers of leaves().
+  /// The BVH. Children with the leaf bit are numbers of leaves().
   const Bvh& bvh() const { return bvh_; }
   std::span<const MeshLeaf> leaves() const { return leaves_; }
-  /// Boxes of a leaf's triangles: children with the leaf bit are numbers of triangles.
+  /// Boxes of a leaf's triangles. Children with the leaf bit are numbers of triangles.
   BvhNode boxes_of_leaf(std::uint32_t leaf) const;
   /// True if float lanes can test leaves: the mesh's size and numbers are far from float's limits.
   bool suits_lanes() const { return suits_lanes_; }

@@ -10,17 +10,17 @@ inline bool is_line(const ShapeCore& core) {
   return core.kind == CoreKind::point || core.kind == CoreKind::segment;
 }
 
-/// Distance of the segments from -p to p and from x - q to x + q; either may be a point. Both
-/// bounds are the distance.
+/// Distance between the segment from -p to p and that from x - q to x + q; either may be a point.
+/// Both bounds are the distance.
 CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& x);
 
 inline bool is_solid(const ShapeCore& core) {
   return core.kind == CoreKind::box || core.kind == CoreKind::disks;
 }
 
-/// Signed distance of a box, or of the hull of two disks, from a point p in its frame; negative
-/// inside. Both bounds are the distance. `axis` is the direction of the shortest translation of the
-/// point that separates them.
+/// Signed distance between a solid (a box, or the hull of two disks) and a point p in the solid's
+/// frame; negative inside. Both bounds are the distance. `axis` is the direction of the shortest
+/// translation that moves the point out of the solid.
 CoreDistance between_solid_and_point(const ShapeCore& solid, const Vec3<double>& p);
 
 enum class BoxOverlap : unsigned char {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A shape prepared once for all queries on pairs; and the relative pose of two shapes, so that
-// solvers only handle numbers of the magnitude of the bodies' sizes and their distance.
+// A shape prepared once for all queries on pairs, and the relative pose of two shapes. With
+// relative poses, solvers only handle numbers as large as the bodies' sizes and their distance.
 #pragma once
 
 #include "core/derived/convert.h"
@@ -31,13 +31,14 @@ class ContactShape {
   TwoFoldVec3<double> exact_middle() const {
     return {core_and_radius_.middle, core_and_radius_.middle_low};
   }
-  /// is_turned(): the core's frame is rotated; is_moved(): its middle is not the body's origin.
-  /// Most shapes are neither, which saves half of the work of placing a pair.
+  /// is_turned(): the core's frame is rotated. is_moved(): the middle is not the body's origin.
+  /// Most shapes are neither, which halves the cost of computing a pair's relative pose.
   bool is_turned() const { return is_turned_; }
   bool is_moved() const { return is_moved_; }
   /// Distance of the middle from the body's origin.
   double offset() const { return offset_; }
-  /// True if the middle is so far from the body's origin that it is placed with twice the digits.
+  /// True if the middle is so far from the body's origin that its position is computed with twice
+  /// the digits.
   bool is_far_out() const {
     constexpr double far = 4;
     return offset_ > far * ball_radius();
@@ -75,21 +76,21 @@ inline Vec3<double> middle_in_world(const ContactShape& shape, const Affine<doub
 /// `pose` must be rigid: its linear part is a rotation or a reflection, to rounding.
 PlacedCore placed(const ContactShape& shape, const Affine<double>& pose);
 
-/// The middle in the world with twice the digits, and its error bound.
+/// Position of the middle in the world with twice the digits, and its error bound.
 struct PlacedMiddle {
   TwoFoldVec3<double> at;
   double loss = 0;
 };
 PlacedMiddle placed_middle(const ContactShape& shape, const Affine<double>& pose);
 
-/// Vector from one point to another in world axes, and its error bound: the rounding of the points'
-/// positions, without the rounding of the vector itself.
+/// Vector from one point to another in world axes. The error bound includes the rounding of the
+/// points' positions, but not that of the vector itself.
 struct Between {
   Vec3<double> x;
   double loss = 0;
 };
 
-/// Vector from A's middle to B's. The positions are subtracted before they are rounded.
+/// Vector from A's middle to B's middle. Subtracts the positions before they are rounded.
 Between between_middles(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                         const Affine<double>& pose_b);
 

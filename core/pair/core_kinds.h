@@ -6,8 +6,8 @@
 
 namespace minkray {
 
-/// Calls f.template operator()<A, B>() for the pair's kinds, if A's is not after B's and both are
-/// known; for `other` and `other` if not.
+/// Calls f.template operator()<A, B>() for the pair's kinds if both are known and A's is not after
+/// B's in the enumeration; otherwise with `other` for both.
 template <class F>
 auto with_core_kinds(const CorePair& pair, F&& f) {
   return with_core_kind(pair.a.kind, [&]<CoreKind A>() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Two cores A and B in A's frame, and the solvers' queries on C, the set of all b - a with b in B
-// and a in A. The distance of the cores is that of C from the origin; if they overlap, their
+// and a in A. The distance of the cores is that of C from the origin. If the cores overlap, their
 // penetration depth is the depth of the origin in C. The signed distance is the maximum over unit
 // vectors n of the minimum of n.c over c in C.
 #pragma once
@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// Bound of all rounding in a query, relative to the sizes plus the distance of the middles.
+/// Bound of all rounding errors of a query, relative to the sizes plus the distance of the middles.
 inline constexpr double core_rounding = 16 * std::numeric_limits<double>::epsilon();
 
 struct CorePair {
@@ -21,7 +21,7 @@ struct CorePair {
   Vec3<double> x;     ///< B's middle in A's frame
   double loss = 0;    ///< error bound of x: rounding of the bodies' positions
 
-  /// Sum of the radii of balls around the middles; rounding is relative to it.
+  /// Sum of the radii of balls around the middles. Rounding errors are relative to this sum.
   double size() const { return a.ball + b.ball; }
   double radii() const { return a.radius + b.radius; }
   /// Error bound of a gap between the grown cores.
@@ -37,7 +37,8 @@ struct DifferencePoint {
   int feature_b;
 };
 
-/// Returns the point of C that is least far along d: b is furthest along -d, a along d.
+/// Returns the point c = b - a of C with the least d.c: b is the point of B furthest along -d, and
+/// a that of A furthest along d.
 template <CoreKind A, CoreKind B>
 inline DifferencePoint nearest_along(const CorePair& pair, const Vec3<double>& d) {
   const CoreSupport a = support_of_core<A>(pair.a, d),
@@ -53,7 +54,7 @@ inline DifferencePoint nearest_along(const CorePair& pair, const Vec3<double>& d
 enum class CoreStatus : unsigned char {
   separated,    ///< a plane with the normal `axis` separates the cores
   overlapping,  ///< a common point was found
-  unsettled,    ///< rounding ended the search: the bounds hold, but may not meet
+  unsettled,    ///< rounding ended the search: the bounds hold, but may differ
 };
 
 /// Distance of two cores. The bounds do not include rounding.
@@ -76,9 +77,9 @@ struct CoreDistance {
   }
 };
 
-/// Distance by which B is moved in along the axis to find other directions of the depth: a
-/// direction at an angle to the axis only gains the cosine of the distance. If the depth gains at
-/// least 1 - `leaning` of the distance, its direction is unique.
+/// To find other directions of the depth, B is moved deeper along the axis by this distance. The
+/// depth along a direction at an angle to the axis grows by the distance times the cosine of the
+/// angle. If the depth grows by at least 1 - `leaning` of the distance, its direction is unique.
 inline double deeper_by(const CorePair& pair) {
   constexpr double step = 1e-4;  // of the sizes
   return step * (pair.size() + pair.radii());
@@ -93,7 +94,8 @@ struct CoreSearch {
   double apart = std::numeric_limits<double>::infinity();
   int max_turns = 200;
   bool may_slide = true;  ///< curved surfaces are searched to second order
-  /// If not null: the search starts from it, unless it is empty, and stores its final state in it.
+  /// If not null: the search starts from this state, unless it is empty, and stores its final state
+  /// here.
   PairMemory* memory = nullptr;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A distance search: two cores, the criteria for its end, and the best result so far. Shared by
-// the methods that search for it (GJK, sliding features, flat ends).
+// A distance search: two cores, the criteria for the end of the search, and the best result so far.
+// Shared by all search methods (GJK, sliding features, flat ends).
 #pragma once
 
 #include "core/pair/core_pair.h"
@@ -15,7 +15,7 @@ struct CoreQuery {
   const CorePair& pair;
   const CoreSearch& search;
   double size = pair.size();
-  double gap = search.gap * size;  ///< bounds this near to each other have met
+  double gap = search.gap * size;  ///< the search ends if the bounds differ by at most this
   CoreDistance result = {};
 
   DifferencePoint nearest(const Vec3<double>& d) {
@@ -23,7 +23,7 @@ struct CoreQuery {
     return nearest_along<A, B>(pair, d);
   }
 
-  /// Sets the result: a point of A, and the vector c from it. Returns true.
+  /// Sets the result: a point of A, and the vector c from this point to B's. Returns true.
   bool end_at(CoreStatus status, const Vec3<double>& a, const Vec3<double>& c) {
     result.status = status;
     result.a = a;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Support mapping of a core for the solvers: support points, each with its feature of the surface
-// (a vertex, a rim, an ellipsoid); a given feature's support point; and its derivative with respect
-// to the direction. Templates of the kind, so that solvers can be compiled for a pair of kinds;
-// `CoreKind::other` looks up the kind in each call.
+// (a vertex, a rim, an ellipsoid); the support point of a given feature, and its derivative with
+// respect to the direction. The kind is a template parameter, so solvers can be compiled for a pair
+// of kinds; with `CoreKind::other` each call looks up the kind.
 #pragma once
 
 #include "core/pair/hull_scan.h"
@@ -36,7 +36,7 @@ auto with_core_kind(CoreKind kind, F&& f) {
   return f.template operator()<CoreKind::other>();
 }
 
-/// True if support points slide on features of such a core, as `add_curvature` computes.
+/// True if such a core has curved features, along which support points slide (`add_curvature`).
 constexpr bool slides(CoreKind kind) {
   return kind == CoreKind::disks || kind == CoreKind::ellipsoid;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Corners of a hull's face around a point in it, as a plane polygon.
+// Corners of a hull's face as a plane polygon, relative to a point of the face.
 #pragma once
 
 #include <algorithm>
@@ -10,13 +10,13 @@
 
 namespace minkray {
 
-/// Seen from the point, in the plane across the normal.
+/// Polar and Cartesian coordinates about the point, in the plane perpendicular to the normal.
 struct PlaneCorner {
   double angle, x, y;
 };
 
-/// The hull's points that `takes(height above the point)`, in any order, without their angles. The
-/// list is valid until the thread's next call.
+/// Returns the hull's points for which takes(height along n above the point) is true, in any order,
+/// without their angles. The list is valid until the thread's next call.
 template <class Takes>
 std::vector<PlaneCorner>& face_corners(const ShapeCore& core, const Vec3<double>& point,
                                        const Vec3<double>& n, const Takes& takes) {
@@ -36,7 +36,7 @@ inline void sort_round(std::vector<PlaneCorner>& corners) {
   std::ranges::sort(corners, {}, &PlaneCorner::angle);
 }
 
-/// Distance of a face's corners from its plane by their rounding, in sizes.
+/// Distance of a face's corners from the face's plane due to rounding, relative to the size.
 inline constexpr double flat_face = 1e-12;
 
 }  // namespace minkray

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The part of a core that lies as far along a direction as its support point does: a vertex, an
-// edge or a face. If this is more than a vertex for both bodies of a pair, there may be many pairs
-// of nearest points.
+// All points of a core that are furthest along a direction: a vertex, an edge or a face. If both
+// bodies of a pair have an edge or a face there, there may be many pairs of nearest points.
 #pragma once
 
 #include "core/pair/core_support.h"
@@ -14,9 +13,9 @@ struct FlatPart {
   double length = 0;                           ///< of the edge
 };
 
-/// Uses the direction with the largest part among those within `tilt` radians of the unit vector d.
-/// For a core known only by its support mapping, the part is spanned by support points in
-/// directions tilted slightly from d.
+/// Returns the largest part for any direction within `tilt` radians of the unit vector d. For a
+/// core known only by its support mapping, support points in slightly tilted directions span the
+/// part.
 FlatPart flat_part(const ShapeCore& core, const Vec3<double>& d, double tilt);
 
 }  // namespace minkray

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds which of a hull's points is furthest along a direction, by scanning all points, eight at a
+// Finds the point of a hull that is furthest along a direction by scanning all points, eight at a
 // time.
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace minkray {
 
-/// Returns an index below hull.count; the same on every machine, as the same numbers are compared
-/// in the same order with and without AVX2.
+/// Returns an index below hull.count. The result is the same on every machine: with and without
+/// AVX2, the same numbers are compared in the same order.
 int furthest_of_hull(const ShapeCore& hull, double x, double y, double z);
 
 }  // namespace minkray

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Final state of a query on a pair of bodies, kept by the caller for the next frame: the separating
 // axis (G. van den Bergen, "Ray Casting against General Convex Objects", 2004, section 4) and the
-// features of the nearest points. Only used as the start of a search: the bounds are proven again
-// for any contents, even from another pair.
+// features of the nearest points. The state is only the start of a search; bounds are proven for
+// any contents, even those of another pair.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ struct PairMemory {
   std::int32_t feature_a[4] = {}, feature_b[4] = {};
   std::int32_t count = 0;
 
-  /// False for zero and for NaN.
+  /// True unless the axis is zero or NaN.
   bool has_axis() const {
     constexpr double near_one = 1e-6;
     return std::abs(axis.squaredNorm() - 1) < near_one;

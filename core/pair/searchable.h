@@ -4,7 +4,8 @@
 
 namespace minkray {
 
-/// Sixth powers of lengths between these, such as squares of triple products, are normal numbers.
+/// For lengths within these limits, sixth powers (such as squares of triple products) are normal
+/// numbers.
 inline constexpr double largest_length = 0x1p160;
 inline constexpr double smallest_length = 1 / largest_length;
 

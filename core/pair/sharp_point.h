@@ -7,7 +7,7 @@
 
 namespace minkray {
 
-/// `point` is within `off` of the surface, and the unit vector n is a normal there; both are in the
+/// `point` is within `off` of the surface, and the unit vector n is a normal there, both in the
 /// core's frame. Returns false for a core known only by its support mapping.
 bool is_sharp_at(const ShapeCore& core, const Vec3<double>& point, const Vec3<double>& n,
                  double off);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Point of a simplex of up to four points closest to the origin, and its weights: tests the faces
-// that the origin is outside of (C. Ericson, "Real-Time Collision Detection", 2005, section 5.1),
-// with determinants that share their cross products.
+// Finds the point of a simplex (up to four points) that is closest to the origin, and its weights.
+// Tests the faces that have the origin on their outer side (C. Ericson, "Real-Time Collision
+// Detection", 2005, section 5.1). The determinants share their cross products.
 #pragma once
 
 #include <limits>
@@ -15,7 +15,7 @@ struct SimplexPoint {
   Vec3<double> v = Vec3<double>::Zero();
   double squared = std::numeric_limits<double>::infinity();
   double weight[4] = {0, 0, 0, 0};
-  unsigned kept = 0;  ///< one bit per vertex with a weight
+  unsigned kept = 0;  ///< one bit per vertex with a nonzero weight
 
   void take(const Vec3<double>& point, unsigned vertices) {
     v = point;
@@ -37,7 +37,7 @@ inline void try_edge(const Vec3<double>* y, int a, int b, SimplexPoint& best) {
   best.weight[a] = 1 - u;
 }
 
-/// `newest_only`: the closest point is not on an edge without c, the newest vertex.
+/// `newest_only`: excludes edges without c, the newest vertex.
 [[gnu::noinline]] inline void try_triangle(const Vec3<double>* y, int a, int b, int c,
                                            bool newest_only, SimplexPoint& best) {
   const Vec3<double> n = (y[b] - y[a]).cross(y[c] - y[a]);
@@ -59,8 +59,8 @@ inline void try_edge(const Vec3<double>* y, int a, int b, SimplexPoint& best) {
   if (!newest_only && !(wc > 0)) try_edge(y, a, b, best);
 }
 
-/// The simplex is y[0] to y[n - 1], n from 1 to 4. `newest_only`: the closest point is not on a
-/// face without y[n - 1]. If rounding leaves no face, `kept` is 0.
+/// The simplex is y[0] to y[n - 1], n from 1 to 4. `newest_only`: excludes faces without y[n - 1].
+/// If no face is left due to rounding, `kept` is 0.
 [[gnu::noinline]] inline SimplexPoint closest_of_simplex(const Vec3<double>* y, int n,
                                                          bool newest_only) {
   SimplexPoint best;

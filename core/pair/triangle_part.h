@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A triangle as a ContactShape that contains its numbers: made for one query, without an
+// A triangle as a ContactShape that stores the corners in itself: made for one query without memory
 // allocation.
 #pragma once
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Error bounds of the derivative of a time of impact, -(d gap/d twist)/(d gap/dt): from the error
-// of the distance's derivative at t_lo, and from the bodies' motion until they touch with
-// certainty.
+// Error bounds of the derivative of a time of impact, -(d gap/d twist)/(d gap/dt). Computed from
+// the error of the distance's derivative at t_lo, and from the bodies' motion until they certainly
+// touch.
 #pragma once
 
 #include "core/pair_derivative/pair_derivative.h"
@@ -10,8 +10,8 @@ namespace minkray {
 
 /// `derivative` belongs to `found`, the first contact of the two motions. Zero if the bodies
 /// overlap at time 0, NaN without contact. Infinite on ridges; for two cores without a radius,
-/// whose normal is unknown at the contact; for turns about points that may slide; and if no overlap
-/// was proven after the contact.
+/// since the normal at the contact is unknown; for turns about points that may slide; and if no
+/// overlap was proven after the contact.
 PairDerivativeError error_of(const ContactShape& a, const RigidMotion& motion_a,
                              const ContactShape& b, const RigidMotion& motion_b,
                              const Impact& found, const PairDerivative& derivative);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Derivatives of a pair's signed distance and of the time of its first contact with respect to the
-// bodies' motion: by the envelope theorem the nearest points can be treated as fixed on the bodies
-// (J. Danskin, "The Theory of Max-Min, with Applications", 1966). With several pairs of nearest
-// points, or several directions of the depth, there are several derivatives.
+// Derivatives of a pair's signed distance, and of the time of its first contact, with respect to
+// the bodies' motion. By the envelope theorem the nearest points can be treated as fixed on the
+// bodies (J. Danskin, "The Theory of Max-Min, with Applications", 1966). With several pairs of
+// nearest points, or several directions of the depth, there are several derivatives.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct TwistDerivative {
 
 struct PairDerivative {
   TwistDerivative a, b;
-  /// True if the bounds do not exclude other derivatives; this is one of them.
+  /// True if the derivative may not be unique; this is then one of several.
   bool is_ridge = false;
 };
 
@@ -35,8 +35,8 @@ inline SignedDistanceOptions for_derivatives(SignedDistanceOptions options = {})
 }
 
 /// `found` is the pair's result with both bounds, computed with for_derivatives(); otherwise the
-/// derivative is NaN and marked as a ridge. Writes `error` if it is not null: it holds for all
-/// poses that are no further than `drift`.
+/// derivative is NaN and marked as a ridge. Writes `error` if not null: the bound holds for all
+/// poses within `drift`.
 PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a,
                              const ContactShape& b, const Affine<double>& pose_b,
                              const SignedDistance& found, PairDerivativeError* error = nullptr,

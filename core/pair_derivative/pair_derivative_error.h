@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Error bounds of a distance's derivative (docs/pairs.md, "Errors of derivatives"): from the range
-// of directions that the distance's bounds allow, and how far support points slide within it.
+// Error bounds of a distance's derivative (docs/pairs.md, "Errors of derivatives"). Computed from
+// the range of directions that the distance's bounds allow, and from the slide of support points
+// within this range.
 #pragma once
 
 #include "core/pair_derivative/pair_derivative_sharpen.h"
@@ -33,8 +34,9 @@ PairDerivativeError error_of(const CoresInWorld& cores, const CoreContact& conta
                              const Vec3<double>& origin_a, const Vec3<double>& origin_b,
                              const Drift& drift = {});
 
-/// A is a half-space whose normal may lean by `tilt`; `down` is the opposite of it in the frame of
-/// B's core. The bodies' origins are in the frame of the points that were found.
+/// A is a half-space, and the error of its normal is at most `tilt`. `down` is the opposite of the
+/// normal, in the frame of B's core. The bodies' origins are in the frame of the points that were
+/// found.
 PairDerivativeError error_at_half_space(const ShapeCore& core_b, const Vec3<double>& down,
                                         double tilt, const SignedDistance& found,
                                         const Vec3<double>& origin_a, const Vec3<double>& origin_b,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Nearest points of two cores and their direction, more accurate than the distance's bounds
-// require: for a core known by its support mapping, the direction's error is the square root of the
-// gap between the bounds.
+// Makes the nearest points of two cores, and their direction, more accurate than the distance's
+// bounds require. For a core known only by its support mapping, the error of the direction is
+// otherwise the square root of the gap between the bounds.
 #pragma once
 
 #include "core/pair/contact_shape.h"
@@ -36,8 +36,8 @@ struct CoreContact {
   Vec3<double> normal, a, c;
 };
 
-/// Improves a contact whose normal is nearly correct; leaves it unchanged if nothing better is
-/// found.
+/// Improves a contact whose normal is nearly correct. Leaves the contact unchanged if no better one
+/// is found.
 void sharpen(const CoresInWorld& cores, CoreContact& contact);
 
 }  // namespace minkray

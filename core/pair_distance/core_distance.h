@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Distance of two cores by GJK with sliding features (curved_gjk.h), compiled separately for each
-// pair of kinds, so that the compiler can inline support points, which are most of the work.
+// Distance of two cores by GJK with sliding features (curved_gjk.h). Compiled separately for each
+// pair of kinds, so that the compiler can inline support points, which dominate the cost.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace minkray {
 
-/// Four points of B - A that enclose the origin, if found: a polytope can start from them.
+/// Four points of B - A that enclose the origin, if found. A polytope can start from these points.
 struct Enclosure {
   std::array<Vec3<double>, 4> c, a;
   bool is_found = false;

@@ -9,8 +9,8 @@ namespace minkray {
 
 struct SignedDistanceOptions;
 
-/// Gap of the bounds, relative to the sizes, at which a query is settled. Queries with a larger gap
-/// go to branch and bound.
+/// A query ends at this gap of the bounds, relative to the sizes. Queries with a larger gap go to
+/// branch and bound.
 inline constexpr double settled_core_gap = 1e-9;
 
 /// A's kind must not be after B's. `memory` may be null.

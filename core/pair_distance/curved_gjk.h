@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Distance of two cores: GJK keeps up to four points of C and adds the support point in the
-// direction d of their closest point to the origin. On curved surfaces GJK converges linearly;
+// Distance of two cores. GJK keeps up to four points of C and adds the support point in the
+// direction d of their closest point to the origin. On curved surfaces GJK converges linearly, so
 // after a few iterations flat ends (flat_ends.h) and sliding features (sliding_features.h) take
-// over. The plane through the support point is a lower bound, the closest point an upper bound; the
-// loop ends when they meet.
+// over. The plane through the support point gives a lower bound, the closest point an upper bound;
+// the loop ends when the bounds meet.
 #pragma once
 
 #include "core/pair_distance/flat_ends.h"
@@ -51,8 +51,8 @@ class CurvedGjk {
       feature_b_[count_] = w.feature_b;
       ++count_;
       const SimplexPoint closest = closest_of_simplex(y_, count_, true);
-      // If rounding keeps the closest point from coming nearer, the previous one, without the
-      // newest point, is the result.
+      // If the closest point comes no nearer due to rounding, the previous closest point is the
+      // result.
       const bool is_nearer = closest.kept != 0 && closest.squared < squared;
       if (!is_nearer && (closest.kept == 0 || ++stalls > 1 || query_.result.lower > 0)) {
         --count_;
@@ -67,8 +67,8 @@ class CurvedGjk {
     return finish(CoreStatus::unsettled);
   }
 
-  /// True if the search ended with four points of C that enclose the origin: writes them to c, and
-  /// their points of A to a.
+  /// True if the search ended with four points of C that enclose the origin. Writes these to c, and
+  /// the corresponding points of A to a.
   bool encloses(Vec3<double>* c, Vec3<double>* a) const {
     if (count_ != 4 || query_.result.status != CoreStatus::overlapping) return false;
     std::copy(y_, y_ + 4, c);
@@ -79,7 +79,8 @@ class CurvedGjk {
  private:
   /// Iterations of GJK before features slide: with a separating plane, and without one.
   static constexpr int turns_apart = 2, turns_near = 6;
-  /// Damping of the first step of sliding features that were stored by a previous query, in sizes.
+  /// Damping of the first step if the sliding features are from a previous query, relative to the
+  /// size.
   static constexpr double resumed_damping = 1e-3;
   static constexpr bool any_slides =
       (A == CoreKind::other || slides(A) || slides(B)) || B == CoreKind::other;
@@ -89,7 +90,7 @@ class CurvedGjk {
     return length <= common_point * query_.size ? CoreStatus::overlapping : CoreStatus::unsettled;
   }
 
-  /// Keeps the vertices that carry the closest point.
+  /// Keeps the vertices with nonzero weights in the closest point.
   void keep(const SimplexPoint& closest) {
     int kept = 0;
     for (int i = 0; i < count_; ++i) {
@@ -110,7 +111,7 @@ class CurvedGjk {
     for (int i = 0; i < count_; ++i) features.add(feature_a_[i], feature_b_[i], weight_[i]);
     if (!features.run(d, damping)) return false;
     if (!query_.search.memory) return true;
-    // Remembered features lead back to the nearest points, which overlapping bodies do not have.
+    // Stored features lead back to the nearest points, which overlapping bodies do not have.
     if (query_.result.status == CoreStatus::overlapping)
       query_.search.memory->count = 0;
     else
@@ -118,10 +119,10 @@ class CurvedGjk {
     return true;
   }
 
-  /// Starts from the final state of the previous query on the pair: its features are points of C at
-  /// any pose of the bodies. Returns true if that gave the result; otherwise the search continues
-  /// from d and the kept points. The direction alone is no start: on a surface known only by its
-  /// support mapping, a simplex of such close points has few digits.
+  /// Starts from the final state of the previous query on the pair: the stored features give points
+  /// of C at any pose of the bodies. Returns true if the state led to the result; otherwise the
+  /// search continues from d and the kept points. The direction alone is not sufficient: on a
+  /// surface known only by its support mapping, a simplex of such close points has few digits.
   bool resume(const PairMemory& memory, Vec3<double>& d, double& squared) {
     if (!memory.has_axis()) return false;
     take_features_of(memory);
@@ -130,7 +131,7 @@ class CurvedGjk {
     keep(closest);
     if (closest.is_inside()) {
       finish(CoreStatus::overlapping);
-      // The stored points may lie in a plane: then they enclose the origin by rounding only.
+      // The stored points may lie in a plane; they then enclose the origin only due to rounding.
       constexpr double in_plane = 1e-13;
       if (query_.result.upper <= in_plane * query_.size) return true;
     } else if (count_ > 0) {
@@ -199,8 +200,8 @@ class CurvedGjk {
     return query_.result;
   }
 
-  /// If the cores nearly touch, the closest point has too few digits to give a direction; the face
-  /// it lies on has enough.
+  /// If the cores nearly touch, the closest point has too few digits to give a direction. The
+  /// normal of the face that contains the point has enough digits.
   void use_face() {
     Vec3<double> n = (y_[1] - y_[0]).cross(y_[2] - y_[0]);
     const double length = n.norm();

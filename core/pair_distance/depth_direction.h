@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finds the direction of least depth of overlapping curved cores, to second order
-// (sliding_features.h), and points of C near it. A polytope that only grows from its nearest face
-// approaches a curved surface slowly, and rarely finds an overlap of 1e-6 of the size.
+// (sliding_features.h), and points of C near this direction. A polytope alone, which grows from its
+// nearest face, approaches a curved surface slowly and rarely finds an overlap of 1e-6 of the size.
 #pragma once
 
 #include <array>
@@ -25,9 +25,9 @@ class DepthDirection {
   int supports() const { return query_.result.supports; }
 
   /// Finds four points of C that enclose the origin, which is close to C's surface: three around
-  /// the direction found from `from`, and the furthest point. The three are close enough to each
-  /// other to cut off at most `gap`, unless the depth needs wider ones. `is_sure(enclosure)`
-  /// decides if four points are accepted.
+  /// the direction of least depth (searched from `from`), and the point of C furthest from them.
+  /// The three are so close to each other that their plane cuts off at most `gap` of C, unless the
+  /// depth requires larger distances. `is_sure(enclosure)` decides if four points are accepted.
   template <class IsSure>
   bool enclose(const Vec3<double>& from, double gap, Enclosure& enclosure, const IsSure& is_sure) {
     SlidingFeatures<CoreKind::other, CoreKind::other> features(query_);
@@ -99,8 +99,8 @@ class DepthDirection {
     return false;
   }
 
-  /// Tries three near points with the furthest point: projected along it, the three must enclose
-  /// the origin.
+  /// Tries three near points with the furthest point. Projected along the latter, the three must
+  /// enclose the origin.
   template <class IsSure>
   static bool try_triples(const Candidates& near, const DifferencePoint& furthest,
                           Enclosure& enclosure, const IsSure& is_sure) {

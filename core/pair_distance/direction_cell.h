@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A triangle of directions, the support points that bound g(n) = min n.c there, and that bound
-// (direction_bounds.h). Branch and bound makes tens of thousands of cells, so they are plain
-// numbers, and a new point only adds its own candidates.
+// A cell: a triangle of directions, the support points that bound g(n) = min n.c in it, and the
+// bound (direction_bounds.h). Branch and bound makes tens of thousands of cells. Cells are
+// therefore plain numbers, and a new point only adds its own candidates.
 #pragma once
 
 #include <algorithm>
@@ -46,8 +46,8 @@ struct DirectionSample {
   PlainVector n, c;
 };
 
-/// All directions between three corners, and support points that bound g there: those of the
-/// corners, and those of directions where the bound was largest.
+/// All directions between three corners, and the support points that bound g there: those of the
+/// corners, and those of the directions where the bound was largest.
 struct DirectionCell {
   static constexpr int most_points = 8;
   std::array<DirectionSample, 3> corners;  ///< counter-clockwise from outside
@@ -77,8 +77,8 @@ struct DirectionCell {
   }
 };
 
-/// Maximum of u(n) = min n.c (c: the cell's points) over a cell, found by testing candidates, and
-/// its direction.
+/// Finds the maximum over a cell of u(n) = min n.c (c: the cell's points), and its direction, by
+/// testing candidates.
 class DirectionCellBound {
  public:
   DirectionCellBound(const DirectionCell& cell, double size) : cell_(cell), size_(size) {
@@ -118,8 +118,9 @@ class DirectionCellBound {
 
   double value() const {
     const double allowed = highest_ + direction_rounding * size_;
-    // On the flat triangle, which is nearer to the origin than the sphere, u is concave, so it is
-    // largest at a candidate. From there to the sphere it changes by a factor between these two.
+    // On the flat triangle, which is nearer to the origin than the sphere, u is concave, so u is
+    // largest at a candidate. From the triangle to the sphere, u changes by a factor between these
+    // two.
     const PlainVector normal =
         (cell_.corner(1) - cell_.corner(0)).cross(cell_.corner(2) - cell_.corner(0));
     const double nearest = std::abs(normal.dot(cell_.corner(0))) / normal.norm();
@@ -129,8 +130,8 @@ class DirectionCellBound {
  private:
   struct Candidate {
     PlainVector n;
-    double u;      ///< over the points taken
-    double apart;  ///< largest difference of n.c between the points that define it
+    double u;      ///< min n.c over the points taken so far
+    double apart;  ///< largest difference of n.c between the points that define the candidate
     double turn;   ///< squared angle by which rounding may have turned n
 
     double value() const {
@@ -138,13 +139,13 @@ class DirectionCellBound {
       return most + std::abs(most) * turn;
     }
   };
-  // Three corners, two sides for each pair of points (signs change twice around a triangle, or not
-  // at all), and one for each three points.
+  // Three at corners, two on sides for each pair of points (signs change twice around a triangle,
+  // or not at all), and one for each three points.
   static constexpr int most_candidates = 3 + 2 * 28 + 56;
 
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-  /// Adds a candidate, bounded by all points up to the one that is being taken.
+  /// Adds a candidate, bounded by all points up to the current one.
   void add(const PlainVector& n, double apart, double turn) {
     double least = std::numeric_limits<double>::infinity();
     const int points = std::min(taken_ + 1, cell_.count);
@@ -167,11 +168,11 @@ class DirectionCellBound {
     }
   }
 
-  /// Adds the candidate where n.p = n.q = n.r, if it is in the cell or just outside. If the points
-  /// lie in a line, the middle one bounds nothing. For slivers, rounding turns n considerably. That
-  /// only matters if the foot of their plane is in the triangle (otherwise u is larger at another
-  /// candidate); the foot is no further along n than the furthest of the three points, and the
-  /// plane is no further either, up to the square of the turn.
+  /// Adds the candidate where n.p = n.q = n.r, if it is in the cell or just outside. If the
+  /// points are collinear, the middle one bounds nothing. For slivers, rounding turns n
+  /// considerably. This only matters if the foot of the origin on the points' plane is in their
+  /// triangle; otherwise u is larger at another candidate. The foot is no further along n than the
+  /// furthest of the three points, and neither is the plane, up to the square of the turn.
   void add_triple(const PlainVector& p, const PlainVector& q, const PlainVector& r) {
     constexpr double in_line = 1e-12, beside = 1e-3;
     // Rounding of a cross product, relative to the product of its factors' lengths.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Penetration depth of overlapping cores by a polytope inside C that grows around the origin (G.
 // van den Bergen, "Proximity Queries and Penetration Depth Computation on 3D Game Objects", 2001).
-// Replaces the face nearest to the origin by the support point beyond it, until none is beyond.
+// Each step adds the support point beyond the face nearest to the origin, until no point is beyond.
 // Exact for polytopes.
 #pragma once
 
@@ -14,16 +14,17 @@
 namespace minkray {
 
 /// Both bounds hold for any rounding of the faces. The plane through a support point bounds the
-/// depth from above. The least distance d of a face bounds it from below: the faces are a closed
-/// surface that winds around the origin once, so it also winds around all points nearer to the
-/// origin, and those are in the hull of its vertices, which are points of C. Growing preserves
-/// this: a face may be replaced by a point w if neither its points nor w are on the origin's side
-/// of some plane that does not contain the origin. So any normal n gives a valid d, the least n.y
-/// of the three vertices.
+/// depth from above. The least distance d of a face bounds the depth from below: the faces are a
+/// closed surface that winds around the origin once, and so around all points nearer to the origin
+/// than d. These points are in the hull of the vertices, which are points of C. Growing preserves
+/// this: a point w may replace a face if some plane that does not contain the origin has neither w
+/// nor the face's points on the origin's side. So any normal n gives a valid d, the least n.y of
+/// the three vertices.
 template <CoreKind A, CoreKind B>
 class ExpandingPolytope {
  public:
-  /// Searches until the bounds are `gap` sizes apart. Starts from the result `found`.
+  /// Starts from the result `found`. Searches until the bounds differ by `gap`, relative to the
+  /// size.
   ExpandingPolytope(const CorePair& pair, double gap, const CoreDistance& found)
       : pair_(pair), size_(pair.size() + pair.x.norm()), gap_(gap * size_), found_(found) {
     found_.upper = 0;
@@ -66,17 +67,17 @@ class ExpandingPolytope {
  private:
   static constexpr int most_points = 400, most_faces = 2 * most_points,
                        most_heaped = 4 * most_faces, most_supports = 1000;
-  /// Points this close to a plane, in sizes, are in the plane.
+  /// Points this close to a plane, relative to the size, count as in the plane.
   static constexpr double in_plane = 1e-14;
   /// Rounding error of the volume of four points of C, relative to the lengths of two sides times
-  /// the size: it has differences, a cross product and a dot product.
+  /// the size. The volume is computed by differences, a cross product and a dot product.
   static constexpr double rounded_volume = 32 * std::numeric_limits<double>::epsilon();
 
   struct Face {
     Vec3<double> n;
     double d;
     int corner[3];
-    int beside[3];  ///< across the edge from corner k to the next: 4 times the face, plus its edge
+    int beside[3];  ///< neighbour at the edge from corner k to the next: 4 * its face + its edge
     bool is_there;
   };
   struct Heaped {
@@ -139,8 +140,8 @@ class ExpandingPolytope {
       is_flat = std::max(std::max(a, b), c) - face.d <= in_plane * size_;
     }
     if (!is_flat || !(face.d > 0)) {
-      // A sliver: the direction of its point nearest to the origin is more accurate than its
-      // normal.
+      // For a sliver, the direction of the face's point nearest to the origin is more accurate than
+      // the face's normal.
       const Vec3<double> corners[3] = {y_[i], y_[j], y_[k]};
       const SimplexPoint closest = closest_of_simplex(corners, 3, false);
       const double length = std::sqrt(closest.squared);
@@ -167,8 +168,8 @@ class ExpandingPolytope {
     return -1;
   }
 
-  /// Replaces all faces that the newest point lies beyond, connected to `first`, by a fan to the
-  /// point.
+  /// Replaces the connected faces around `first` that have the newest point on their outer side by
+  /// a fan to this point.
   bool grow(int first) {
     const Vec3<double>& w = y_[count_];
     int open = 0, edges = 0;
@@ -236,7 +237,7 @@ class ExpandingPolytope {
     for (int f = 0; f < face_count_; ++f) {
       const Face& face = faces_[f];
       if (!face.is_there) continue;
-      // Distance of the face after B has moved in along the axis.
+      // Distance of the face after B has moved deeper along the axis.
       if (!(face.d - way * face.n.dot(axis) >= all_but_leaning)) found_.has_one_direction = false;
       if (!(face.d <= -height + gap_ + in_plane * size_)) continue;
       const Vec3<double> corners[3] = {y_[face.corner[0]] - foot, y_[face.corner[1]] - foot,

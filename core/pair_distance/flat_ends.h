@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Closed form for cores that end in disks (cylinders, cones): over a flat end the support point
-// jumps from one side of the rim to the other, and neither GJK nor Newton's method converges.
+// Closed form for cores that end in disks (cylinders, cones). Above a flat end the support point
+// jumps from one side of the rim to the other, so neither GJK nor Newton's method converges.
 #pragma once
 
 #include "core/pair/core_query.h"
@@ -8,8 +8,8 @@
 namespace minkray {
 namespace detail {
 
-/// Tries the axis of a flat end as the normal: it is the result if the other core's nearest point
-/// lies over the disk.
+/// Tries the axis of a flat end as the normal. This is the result if the other core's nearest point
+/// is above the disk.
 template <CoreKind Other, CoreKind A, CoreKind B>
 bool flat_end(CoreQuery<A, B>& query, const ShapeCore& disks, const ShapeCore& other,
               const Mat3<double>& to_other, const Vec3<double>& d, bool is_of_a) {
@@ -44,8 +44,8 @@ bool flat_end(CoreQuery<A, B>& query, const ShapeCore& disks, const ShapeCore& o
 
 }  // namespace detail
 
-/// Tries the flat ends of both cores that the direction d from A to B points to. Returns true if
-/// that gave a result.
+/// Tries the flat end of each core that faces the other core along d, the direction from A to B.
+/// Returns true if one gave a result.
 template <CoreKind A, CoreKind B>
 bool try_flat_ends(CoreQuery<A, B>& query, const Vec3<double>& d) {
   const CorePair& pair = query.pair;

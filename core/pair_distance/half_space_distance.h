@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Distance of a shape from a half-space, which is unbounded and so has no support mapping: the
-// height of its lowest point above the plane.
+// Distance of a shape from a half-space: the height of the shape's lowest point above the plane. A
+// half-space is unbounded, so it has no support mapping.
 #pragma once
 
 #include "core/pair_distance/signed_distance.h"
@@ -8,13 +8,14 @@
 namespace minkray {
 
 /// A is the half-space of all points x with normal . x <= offset, where the normal has unit length;
-/// B is the shape at a rigid pose. The distance is negative if a part of B is below the plane:
-/// moving B that far along the normal frees it. Unknown (is_unknown()) if lengths are not finite.
+/// B is the shape at a rigid pose. The distance is negative if a part of B is below the plane; a
+/// move of B along the normal by this depth separates the two. Unknown (is_unknown()) if lengths
+/// are not finite.
 SignedDistance distance_to_half_space(const Vec3<double>& normal, double offset,
                                       const ContactShape& shape, const Affine<double>& pose);
 
-/// A plane given by its normal and one of its points, which should be near the bodies: heights are
-/// then accurate.
+/// A plane given by its normal and one of its points. Heights are accurate if the point is near the
+/// bodies.
 struct PlacedPlane {
   Vec3<double> normal = Vec3<double>::UnitZ();  ///< of unit length
   TwoFoldVec3<double> point;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Up to four contact points of two shapes, so that a box does not tip over its single nearest
-// point. The support points of each shape in directions tilted slightly from the normal are the
-// corners of the part that faces the other shape. Projected along the normal, the two polygons are
-// clipped (I. Sutherland, G. Hodgman, "Reentrant Polygon Clipping", 1974), and at most four
-// corners, which span the most, are kept.
+// Up to four contact points of two shapes; with a single point, a resting box would tip over.
+// Support points in directions tilted slightly from the normal are the corners of each shape's part
+// that faces the other shape. The two polygons, projected along the normal, are clipped (I.
+// Sutherland, G. Hodgman, "Reentrant Polygon Clipping", 1974). At most four corners with the
+// largest area are kept.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 namespace minkray {
 
 struct ContactPoint {
-  /// Points of A and B, to rounding, opposite each other: point_b - point_a = distance * normal.
+  /// Points of A and B, up to rounding, with point_b - point_a = distance * normal.
   Vec3<double> point_a = Vec3<double>::Zero();
   Vec3<double> point_b = Vec3<double>::Zero();
   double distance = 0;  ///< negative: minus the depth of the overlap at these points
@@ -26,9 +26,9 @@ struct ContactManifold {
 };
 
 struct ManifoldOptions {
-  double tilt = 0.02;  ///< radians; faces at a larger angle touch at an edge or a corner
-  /// Omits points that are further apart than the nearest by this times the size of the smaller
-  /// shape.
+  double tilt = 0.02;  ///< radians; at larger angles between two faces only edges or corners touch
+  /// Omits pairs of points whose distance exceeds that of the nearest pair by more than this times
+  /// the size of the smaller shape.
   double within = 0.02;
 };
 

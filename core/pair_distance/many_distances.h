@@ -17,7 +17,7 @@ struct PosedPair {
   Affine<double> pose_b;
 };
 
-/// Writes one answer per pair.
+/// Writes one result per pair.
 void signed_distances(std::span<const PosedPair> pairs, std::span<SignedDistance> answers,
                       const SignedDistanceOptions& options = {});
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Signed distance of two convex shapes: their distance or, if they overlap, minus the length of the
+// Signed distance of two convex shapes: their distance or, for an overlap, minus the length of the
 // shortest translation that separates them (S. Cameron, R. Culley, 1986). Equals the largest signed
-// gap between two parallel planes, one bounding A, the other B. One such pair of planes proves the
-// lower bound. The upper bound is proven by a point of each shape or, if they overlap, by points of
-// B - A that enclose the origin.
+// gap between two parallel planes, one bounding A, the other B. Such a pair of planes proves the
+// lower bound. A point of each shape proves the upper bound; for an overlap, points of B - A that
+// enclose the origin.
 #pragma once
 
 #include <limits>
@@ -36,24 +36,24 @@ constexpr std::string_view name_of(SignedStatus status) {
 
 struct SignedDistance {
   SignedStatus status = SignedStatus::undecided;
-  double value = 0;  ///< in [lower, upper], which allow for rounding; see is_unknown()
+  double value = 0;  ///< in [lower, upper], which include rounding; see is_unknown()
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
-  /// Nearest points of A and B in the world. If A and B overlap: the points that coincide when B is
-  /// moved by -value * normal, where the shapes just touch. point_b - point_a = value * normal, up
-  /// to the error in docs/contact.md.
+  /// Nearest points of A and B in the world. For an overlap: the points where the shapes just touch
+  /// after B is moved by -value * normal. point_b - point_a = value * normal, up to the error in
+  /// docs/contact.md.
   Vec3<double> point_a = Vec3<double>::Zero();
   Vec3<double> point_b = Vec3<double>::Zero();
-  /// Unit vector from A to B, normal to two separating planes at least `lower` apart (overlap:
-  /// bounding planes that cross over by at most -`lower`). Moving B along the normal separates the
-  /// shapes.
+  /// Unit vector from A to B: the normal of two separating planes that are at least `lower` apart.
+  /// For an overlap, the two bounding planes overlap by at most -`lower`, and moving B along the
+  /// normal separates the shapes.
   Vec3<double> normal = Vec3<double>::Zero();
   int supports = 0;  ///< number of support points of B - A; each costs one of A and one of B
   /// Set if the limit of support points was reached: the bounds hold, but are not within the
   /// tolerance.
   bool is_exhausted = false;
-  /// True if the cores (a shape is its core grown by a radius) overlap and the direction of their
-  /// penetration depth is proven unique. False: not known.
+  /// True if the cores overlap and the direction of their penetration depth is proven to be unique.
+  /// False: not known. A shape is its core grown by a radius.
   bool has_one_direction = false;
 
   /// True if the search failed: the shapes may or may not overlap, and the distance has no upper
@@ -70,23 +70,22 @@ struct SignedDistanceOptions {
   /// Distance beyond which a lower bound is enough: `upper` may then be infinite, and `value`
   /// equals `lower`.
   double at_most = std::numeric_limits<double>::infinity();
-  /// Only decides if the shapes overlap, without a depth; `lower` is -infinity or a bound found in
-  /// passing.
+  /// Only decides if the shapes overlap, without a depth. `lower` is then -infinity, or a bound
+  /// that the search happened to find.
   bool only_sign = false;
   /// Maximum number of support points for branch and bound, which runs if all other methods fail.
-  /// Contact points take some tens more. If all directions are equally good, ten digits are not
-  /// reached at any limit. Example: a point inside a ball that is known only by its support
-  /// mapping.
+  /// Contact points need some tens more. If all directions are equally good, no limit suffices for
+  /// ten digits: for example, a point inside a ball that is known only by its support mapping.
   int max_supports = 50000;
   /// Also makes the normal and the points of curved shapes accurate to about 1e-9, as derivatives
-  /// require. Cheaper than setting `tolerance` that fine.
+  /// require. Costs less than an equally small `tolerance`.
   bool is_for_derivatives = false;
 };
 
-/// The poses must be rigid. The bounds include all rounding: 16 machine epsilons of the shapes'
-/// sizes plus the distance of their middles, however far the shapes are from the world's origin.
-/// For a shape whose middle is not the origin of its own frame, the rounding of placing that middle
-/// is added.
+/// The poses must be rigid. The bounds include all rounding errors: 16 machine epsilons of the
+/// shapes' sizes plus the distance of their middles, at any distance from the world's origin. If a
+/// shape's middle is not the origin of its own frame, the rounding of the middle's position is
+/// added.
 SignedDistance signed_distance(const ContactShape& a, const Affine<double>& pose_a,
                                const ContactShape& b, const Affine<double>& pose_b,
                                const SignedDistanceOptions& options = {});
@@ -94,7 +93,7 @@ SignedDistance signed_distance(const ContactShape& a, const Affine<double>& pose
 /// Warm start: begins from the state that the last query on this pair stored in `memory`, and
 /// stores its own final state there. Faster if bodies move little between queries (hulls: about
 /// twice as fast). The bounds hold for any contents of `memory`; the result's last digits depend on
-/// them.
+/// the contents.
 SignedDistance signed_distance(const ContactShape& a, const Affine<double>& pose_a,
                                const ContactShape& b, const Affine<double>& pose_b,
                                PairMemory& memory, const SignedDistanceOptions& options = {});

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Distance of two curved cores to second order. Each point of GJK's simplex lies on a feature of
-// the surface and slides along it when the direction d turns. With S the weighted sum of the
-// features' derivatives, the closest point of the sliding features is, to second order, the closest
-// point of fixed points in the metric H = I + S |d| / gap, found by GJK's simplex code. With S = 0
-// this is GJK, with one feature Newton's method.
+// the surface and slides along the feature when the direction d turns. S is the weighted sum of the
+// features' derivatives. To second order, the closest point of the sliding features is that of
+// fixed points in the metric H = I + S |d| / gap, which GJK's simplex code finds. With S = 0 the
+// method is GJK; with one feature it is Newton's method.
 #pragma once
 
 #include <algorithm>
@@ -29,8 +29,8 @@ class SlidingFeatures {
     append(feature_a, feature_b, weight);
   }
 
-  /// Searches from the direction d. `damping`, in sizes, is that of the first step: pairs of a face
-  /// and a rim need it. Returns true if a result was found.
+  /// Searches from the direction d. `damping` is that of the first step, relative to the size;
+  /// pairs of a face and a rim need damping. Returns true if a result was found.
   bool run(const Vec3<double>& d, double damping);
 
   /// Finds the direction near d with the largest gap of overlapping cores, to about 1e-7: a local
@@ -43,16 +43,16 @@ class SlidingFeatures {
   }
   const Vec3<double>& direction() const { return direction_; }
 
-  /// Finds the same direction to rounding, by Newton's method from a direction that is off by less
-  /// than `turn`: at a peak on one feature, on the crease of two, or at a corner of more. Returns
-  /// true if found.
+  /// Finds the same direction up to rounding, by Newton's method from a direction that is off by
+  /// less than `turn`. The optimum may be a peak on one feature, on the crease of two, or at a
+  /// corner of more. Returns true if found.
   bool sharpen(const Vec3<double>& d, double turn);
   /// Points found by sharpen(): a point of A, and the vector from it to a point of B.
   const Vec3<double>& sharp_a() const { return sharp_a_; }
   const Vec3<double>& sharp_c() const { return sharp_c_; }
 
-  /// Calls f(point) with points of C around the one that settle() found: those of each feature in
-  /// three directions at the angle `turn`.
+  /// Calls f(point) with points of C around the point that settle() found: for each feature, the
+  /// points in three directions at the angle `turn`.
   template <class F>
   void around(double turn, const F& f) const {
     const Vec3<double> e0 = direction_.unitOrthogonal(), e1 = direction_.cross(e0);
@@ -65,7 +65,7 @@ class SlidingFeatures {
 
   static constexpr double first_damping = 0.1;
 
-  /// Stores the features that carry the closest point.
+  /// Stores the features with nonzero weights in the closest point.
   void remember(PairMemory& memory) const {
     memory.count = count_;
     std::copy(feature_a_, feature_a_ + count_, memory.feature_a);
@@ -106,7 +106,7 @@ class SlidingFeatures {
     weight_[count_++] = weight;
   }
 
-  /// Keeps the features that carry the closest point.
+  /// Keeps the features with nonzero weights in the closest point.
   void keep(const SimplexPoint& closest) {
     int kept = 0;
     for (int i = 0; i < std::min(count_, 4); ++i) {
@@ -127,7 +127,7 @@ class SlidingFeatures {
   bool is_inside(const Vec3<double>& n, double depth, const Vec3<double>* z, Vec3<double>& common);
 
   /// One step of Newton's method on the gap of one sliding feature, with curvature S - depth.
-  /// Returns false if that is no peak.
+  /// Returns false if the gap has no maximum there.
   static bool climb(const Symmetric& S, double depth, const Vec3<double>& n, const Vec3<double>& v,
                     Vec3<double>& next) {
     const Vec3<double> e0 = n.unitOrthogonal(), e1 = n.cross(e0), s0 = S * e0, s1 = S * e1;
@@ -144,7 +144,7 @@ class SlidingFeatures {
   }
 
   /// One step of sharpen(): computes the features' weights and the next direction. Returns false if
-  /// that is no peak. `least` is the feature with the least weight.
+  /// the gap has no maximum there. `least` is the feature with the least weight.
   bool step_to_peak(const Vec3<double>& n, Vec3<double>& next, int& least);
 
   CoreQuery<A, B>& query_;
@@ -165,8 +165,7 @@ bool SlidingFeatures<A, B>::is_inside(const Vec3<double>& n, double depth, const
   const auto holds = [&](const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& r) {
     const Vec3<double> corners[4] = {p, q, r, query_.pair.x};
     const SimplexPoint closest = closest_of_simplex(corners, 4, false);
-    // Rounding may give a wrong result: the weighted sum's distance from the origin shows how
-    // wrong.
+    // The weighted sum's distance from the origin is the error due to rounding.
     common = Vec3<double>::Zero();
     for (int i = 0; i < 4; ++i) common += closest.weight[i] * corners[i];
     return closest.is_inside();
@@ -347,7 +346,7 @@ bool SlidingFeatures<A, B>::sharpen(const Vec3<double>& d, double turn) {
     Vec3<double> next;
     int least = 0;
     if (!step_to_peak(direction_, next, least)) return false;
-    // Corners of a face with more than three carry a point by any three of them.
+    // If a face has more than three corners, any three of them can have the nonzero weights.
     if (count_ > 1 && count_ < 4 && weight_[least] < outside) {
       --count_;
       feature_a_[least] = feature_a_[count_];

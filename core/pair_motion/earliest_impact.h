@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The first of many times of impact.
+// Finds the first of many times of impact.
 #pragma once
 
 #include "core/pair_motion/impact.h"
@@ -7,8 +7,8 @@
 namespace minkray {
 
 struct EarliestImpact {
-  /// `t_lo` is before all contacts. All other members are of one body: the one that is touched
-  /// first; without contact, one whose time is unknown or one that is missed.
+  /// `t_lo` is before all contacts. All other members are those of one body: the body that is
+  /// touched first; without contact, a body whose time is unknown or a body that is missed.
   Impact impact;
   std::size_t body = none;
   static constexpr std::size_t none = ~std::size_t{0};

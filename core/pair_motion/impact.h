@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// First contact of two bodies that move and turn: conservative advancement of second order with
-// proven distances (B. Mirtich, "Impulse-based Dynamic Simulation of Rigid Body Systems", 1996,
-// section 2.3). Bodies that do not turn need no steps (swept_portal.h).
+// First contact of two bodies that move and turn: second-order conservative advancement with proven
+// distances (B. Mirtich, "Impulse-based Dynamic Simulation of Rigid Body Systems", 1996, section
+// 2.3). Bodies that do not turn need no time steps (swept_portal.h).
 #pragma once
 
 #include "core/pair_distance/signed_distance.h"
@@ -21,7 +21,7 @@ struct RigidMotion {
 enum class ImpactStatus : unsigned char {
   miss,       ///< no contact before t_max
   hit,        ///< the first contact is between t_lo and t_hi
-  inside,     ///< overlap at time 0, or touch and approach each other
+  inside,     ///< the bodies overlap at time 0, or touch and approach each other
   undecided,  ///< no contact before t_lo; not known after it
 };
 
@@ -41,42 +41,43 @@ constexpr std::string_view name_of(ImpactStatus status) {
 
 struct Impact {
   ImpactStatus status = ImpactStatus::undecided;
-  double t_lo = 0;  ///< apart before this; if they touch at 0 and part: apart from just after 0
+  double t_lo = 0;  ///< no contact before this, except at 0 if the bodies touch and part there
   double t_hi = std::numeric_limits<double>::infinity();  ///< the bodies touch or overlap here
   /// Nearest points and normal from A to B at t_lo (for a miss: at t_max), in the world.
   Vec3<double> point_a = Vec3<double>::Zero();
   Vec3<double> point_b = Vec3<double>::Zero();
   Vec3<double> normal = Vec3<double>::Zero();
-  double distance = 0;  ///< of the bodies at t_lo; infinite if unknown, then without points
+  double distance = 0;  ///< of the bodies at t_lo; infinite if unknown, and then without points
   int steps = 0;        ///< number of distance queries
 };
 
 struct ImpactOptions {
   /// Bodies nearer to each other than this times the sum of their sizes count as touching, so
-  /// passing each other that closely is a hit. A reported miss is always a miss.
+  /// bodies that pass each other more closely are a hit. A reported miss is always a miss.
   double touching = 1e-10;
   int max_steps = 2000;
   /// Compute the nearest points at t_max for misses; the normal is always set.
   bool points_of_misses = true;
 };
 
-/// Finds the first contact of A and B at times from 0 to t_max. Bodies that touch at time 0 (to
-/// `touching`) are `inside` if they approach each other at the contact, or rest; if they part, the
-/// next contact is searched for.
+/// Finds the first contact of A and B at times from 0 to t_max. Bodies that touch at time 0 (within
+/// `touching`) are `inside` if they approach each other at the contact, or rest. If they part, the
+/// search continues with the next contact.
 ///
-/// A plane between the bodies is kept fixed from a time at which they are apart. While a body turns
-/// by an angle theta, its extent along the plane's normal n is h(n(tau)): h is its support function
-/// about its pivot, n(tau) the normal in its frame, which moves on a great circle. h is convex, so
-/// on the arc it is at most the interpolation of its values at the two ends, plus (1 / cos(theta/2)
-/// - 1) times the larger. So the gaps at the beginning and the end of a step prove that nothing
-/// touches in between, up to a term in theta^2. Near the contact, convergence is quadratic.
+/// Each step starts at a time at which the bodies are apart, and fixes a plane between them. While
+/// a body turns by an angle theta, its extent along the plane's normal n is h(n(tau)). Here h is
+/// the body's support function about its pivot, and n(tau) the normal in the body's frame, which
+/// moves on a great circle. h is convex, so on the arc h is at most the interpolation of the values
+/// at the two ends, plus (1 / cos(theta/2) - 1) times the larger value. The gaps at the beginning
+/// and the end of a step therefore prove, up to a term in theta^2, that there is no contact in
+/// between. Near the contact, convergence is quadratic.
 Impact first_impact(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
                     const RigidMotion& motion_b, double t_max, const ImpactOptions& options = {});
 
 /// Warm start: begins from the state that the last query on this pair stored in `memory`, and
-/// stores its own final state there: the plane that proves a miss often proves one in the next
-/// frame, too. The bounds hold for any contents of `memory`; the result's last digits depend on
-/// them.
+/// stores its own final state there. The plane that proves a miss often proves a miss in the next
+/// frame, too. The bounds hold for any contents of `memory`; the result's last digits depend on the
+/// contents.
 Impact first_impact(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
                     const RigidMotion& motion_b, double t_max, PairMemory& memory,
                     const ImpactOptions& options = {});

@@ -14,15 +14,15 @@ class MovingPair {
  public:
   virtual ~MovingPair() = default;
 
-  /// The signed distance at s; beyond `at_most` a lower bound is enough.
+  /// Signed distance at s; above `at_most` a lower bound is enough.
   virtual SignedDistance at(double s, double at_most) const = 0;
   /// Lower bound of the gap along n at s, tight up to rounding. `n` and `at(s).normal` are in the
   /// frame in which the bounds below hold.
   virtual double gap(const Vec3<double>& n, double s) const = 0;
 
-  double size = 0;          ///< of both bodies together; tolerances are relative to it
-  double speed = 0;         ///< bound of the relative speed of any point of B and any of A
-  double acceleration = 0;  ///< bound of their relative acceleration
+  double size = 0;          ///< sum of the bodies' sizes; tolerances are relative to this sum
+  double speed = 0;         ///< bound of the relative speed of a point of B and a point of A
+  double acceleration = 0;  ///< bound of the relative acceleration of such points
   /// Lower bound of all distances: 0 for pairs without depth.
   double least = -std::numeric_limits<double>::infinity();
 };
@@ -39,22 +39,22 @@ struct LeastDistanceOptions {
 
 struct LeastDistance {
   double lower = -std::numeric_limits<double>::infinity();  ///< over all of [0, 1]
-  double upper = std::numeric_limits<double>::infinity();   ///< of `there`
+  double upper = std::numeric_limits<double>::infinity();   ///< upper bound of `there`
   double s = 0;  ///< parameter of the least distance found
   SignedDistance there;
   int distances = 0;  ///< number of queries
   bool is_settled = false;
 };
 
-/// Searches until the bounds are as near as `options` requires.
+/// Searches until the difference of the bounds is as small as `options` requires.
 ///
-/// A plane with normal n separates the bodies by the gap g(n, s) at a time s, which is at most
-/// their signed distance. For a fixed n the gap is the least n.(q - p) over points p of A and q of
-/// B; as a function of s, each n.(q - p) has a second derivative of at most `acceleration`. So on
-/// [s0, s1] the distance is at least
+/// A plane with normal n separates the bodies by the gap g(n, s) at a time s. The gap is at most
+/// the signed distance. For a fixed n the gap is the least n.(q - p) over points p of A and q of B.
+/// As a function of s, each n.(q - p) has a second derivative of at most `acceleration`. So on [s0,
+/// s1] the distance is at least the larger of
 ///
 ///   min(g(n, s0), g(n, s1)) - acceleration * (s1 - s0)^2 / 8   for any n, and
-///   (d(s0) + d(s1) - speed * (s1 - s0)) / 2                    since `speed` bounds its rate.
+///   (d(s0) + d(s1) - speed * (s1 - s0)) / 2                    since `speed` bounds |d'|.
 ///
 /// The interval with the least bound is halved until the bound is near the least distance found.
 LeastDistance least_distance(const MovingPair& pair, const LeastDistanceOptions& options);

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Time of impact of curved cores to second order, by sequential quadratic programming. The
-// supporting planes with normal n, n.u = -1 (u along the motion), give a lower bound of the time, a
-// concave function of n whose maximum is the time: the minimum of one function per feature
-// (sliding_features.h).
+// supporting planes with normal n, n.u = -1 (u along the motion), give a lower bound of the time.
+// This bound is a concave function of n, and its maximum is the time: the minimum of one function
+// per feature (sliding_features.h).
 #pragma once
 
 #include "core/pair_motion/swept_query.h"
 
 namespace minkray {
 
-/// Near the current n, feature i gives t_i + q_i.m - m S m / 2, where q_i is its projection and S
-/// the features' curvature. The m that maximises the minimum of these comes from the dual, a
-/// quadratic program of at most four weights, which is solved by trying all subsets.
+/// At n + m, feature i gives t_i + q_i.m - m S m / 2, where q_i is the feature's projection and S
+/// the features' curvature. The dual problem gives the m that maximises the minimum of these
+/// functions: a quadratic program of at most four weights, solved by trying all subsets.
 template <CoreKind A, CoreKind B>
 class SlidingPortal {
  public:
@@ -28,8 +28,8 @@ class SlidingPortal {
     append(feature_a, feature_b, weight);
   }
 
-  /// Searches from the normal n, which faces against the motion. Returns true if that decided the
-  /// query.
+  /// Searches from the normal n, which faces against the motion. Returns true if the search decided
+  /// the query.
   bool run(const Vec3<double>& n) {
     Vec3<double> nd = n / -n.dot(query_.along);
     double damping = 0.1;  // of the first step, in sizes: pairs of a face and a rim need it
@@ -87,7 +87,7 @@ class SlidingPortal {
     S.add(-k / (length * length), nd);
   }
 
-  /// Over a flat end the support point jumps: only the portal continues there.
+  /// True above a flat end, where the support point jumps: only the portal can continue there.
   bool is_along_an_end(const Vec3<double>& nd) const {
     constexpr double flat = 1e-6;
     const auto is_along = [](const ShapeCore& core, const Vec3<double>& d) {
@@ -160,8 +160,8 @@ class SlidingPortal {
     return least < std::numeric_limits<double>::infinity();
   }
 
-  /// Called at the best normal: three points near it whose projections enclose the origin prove an
-  /// upper bound of the time.
+  /// Called at the best normal. Three points in nearby directions prove an upper bound of the time
+  /// if their projections enclose the origin.
   bool surround(const Vec3<double>& nd, const SweptPoint* z) {
     const double length = nd.norm();
     double turn = 3e-6 * length;

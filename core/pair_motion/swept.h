@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A shape that contains another shape throughout a motion: the hull of the shape at both ends,
-// grown by the largest distance of a point's path from the straight line between its ends. With an
-// acceleration of at most a, in a unit of time, this is at most a / 8; for a turn by theta, with
-// all points within rho of the axis, rho theta^2 / 8.
+// grown by the largest distance of a point's path from the line between its ends. This distance is
+// at most a / 8 for an acceleration of at most a over a unit of time, and rho theta^2 / 8 for a
+// turn by theta with all points within rho of the axis.
 #pragma once
 
 #include "core/math/affine.h"
@@ -15,8 +15,8 @@ namespace minkray {
 Shape<double> swept(const Shape<double>& shape, const Affine<double>& from,
                     const Affine<double>& to, double acceleration);
 
-/// Takes the motion of RigidMotion: the origin of the shape's frame moves along a line, and the
-/// shape turns about it at a constant rate, by the smaller angle. Poses must be rigid.
+/// The motion is as in RigidMotion: the origin of the shape's frame moves along a line, and the
+/// shape turns about this origin at a constant rate, by the smaller angle. Poses must be rigid.
 Shape<double> swept(const Shape<double>& shape, const Affine<double>& from,
                     const Affine<double>& to);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// First contact of a boxe that moves without turning with one at rest: C is the intersection of 15
-// pairs of parallel planes (S. Gottschalk et al., "OBBTree", 1996), and a ray is in C while it is
-// between the planes of each pair.
+// First contact of a box that moves without turning and a box at rest. C is the intersection of 15
+// slabs, each between two parallel planes (S. Gottschalk et al., "OBBTree", 1996); a ray is in C
+// while it is in all slabs.
 #pragma once
 
 #include "core/pair_motion/swept_query.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// First contact of a core that moves without turning with one at rest, if the distance has a closed
-// form. The signed distance is a convex function of the position, and so of the time: Newton's
-// method from the left never overshoots. A separating plane proves each step.
+// First contact of a core that moves without turning and a core at rest, if the distance has a
+// closed form. The signed distance is a convex function of the position, and so of the time.
+// Newton's method from the left therefore never overshoots. A separating plane proves each step.
 #pragma once
 
 #include "core/pair_motion/swept_query.h"

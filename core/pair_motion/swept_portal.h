@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// First contact of a core that moves without turning with one at rest: a ray cast at C by portals
+// First contact of a core that moves without turning and a core at rest: a ray cast at C by portals
 // (G. Snethen, "XenoCollide", in Game Programming Gems 7, 2008). GJK on C projected along the
-// motion finds three points around the origin, or proves a miss; support points move their triangle
-// outwards. The triangle and the support plane bound the time. Exact for polytopes; on curved
+// motion finds a portal (three points around the origin) or proves a miss. Support points move the
+// portal outwards; the portal and the support plane bound the time. Exact for polytopes; on curved
 // surfaces sliding_portal.h takes over after a few iterations.
 #pragma once
 
@@ -13,15 +13,16 @@ namespace minkray {
 template <CoreKind A, CoreKind B>
 class SweptPortal {
  public:
-  /// B moves by t * velocity in A's frame, for 0 <= t <= t_max. Miss: a plane keeps the cores more
-  /// than `near` apart throughout. Hit: between the bounds of the time B moves by at most `near`.
+  /// B moves by t * velocity in A's frame, for 0 <= t <= t_max. Miss: a plane separates the cores
+  /// by more than `near` at all times. Hit: between the two bounds of the time, B moves at most
+  /// `near`.
   SweptPortal(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near)
       : query_(pair, velocity, t_max, near) {
     can_slide_ = pair.a.kind != CoreKind::other && pair.b.kind != CoreKind::other &&
                  (slides(pair.a.kind) || slides(pair.b.kind) || query_.radius > 0);
   }
 
-  /// `memory` may be null; if not, its plane is tried first.
+  /// If `memory` is not null, the stored plane is tried first.
   SweptTime run(const PairMemory* memory) {
     if (!(query_.speed > 0) || query_.passes_by()) return query_.result;
     if (memory && memory->has_axis()) {
@@ -104,7 +105,7 @@ class SweptPortal {
       const SweptPoint w = query_.support(n);
       if (query_.judge(n, w)) return true;
       if (query_.has_met()) return query_.end_hit();
-      // Keeps the third of the triangle, divided at the new point, that contains the origin.
+      // The new point divides the triangle into three; keeps the one that contains the origin.
       const double sign = area < 0 ? -1 : 1, at0 = sign * cross(portal_[0], w),
                    at1 = sign * cross(portal_[1], w), at2 = sign * cross(portal_[2], w);
       if (at0 <= 0 && at1 >= 0)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A search for a time of impact: two cores, B moving without turning, and the bounds proven so far.
-// The points include the radii: C is grown by both.
+// A search for a time of impact: two cores, B in motion without turning, and the bounds proven so
+// far. The points include the radii: C is grown by both radii.
 #pragma once
 
 #include <algorithm>
@@ -19,7 +19,7 @@ enum class SweptStatus : unsigned char {
 struct SweptTime {
   SweptStatus status = SweptStatus::open;
   double t_lo = -std::numeric_limits<double>::infinity();  ///< no contact before this
-  double t_hi = std::numeric_limits<double>::infinity();   ///< the cores touch or overlap
+  double t_hi = std::numeric_limits<double>::infinity();   ///< the cores touch or overlap here
   Vec3<double> axis = Vec3<double>::Zero();                ///< unit normal of the separating plane
   Vec3<double> a = Vec3<double>::Zero();  ///< a point of A that is also a point of B at t_hi
   int supports = 0;
@@ -83,7 +83,7 @@ struct SweptQuery {
     return true;
   }
 
-  /// True (a miss) if the bounding balls of both miss each other by more than rounding.
+  /// True (a miss) if the bounding balls miss each other by more than rounding.
   bool passes_by() {
     const double towards = pair.x.dot(along);
     const Vec3<double> aside = pair.x - towards * along;
@@ -93,8 +93,8 @@ struct SweptQuery {
     return true;
   }
 
-  /// Applies the bound that the plane with normal n through w proves. Returns true if that is a
-  /// miss.
+  /// Applies the bound that the plane with normal n through w proves. Returns true if the plane
+  /// proves a miss.
   bool judge(const Vec3<double>& n, const SweptPoint& w) {
     const double length = n.norm(), gap = n.dot(w.y) - rounding * length,
                  approach = -n.dot(velocity);
@@ -115,8 +115,8 @@ struct SweptQuery {
     return false;
   }
 
-  /// Takes the time at which the origin is in the triangle's plane as an upper bound, if it is then
-  /// inside the triangle. Returns true if it is.
+  /// Uses the time at which the origin is in the triangle's plane as an upper bound, if the origin
+  /// is then inside the triangle. Returns true if so.
   bool pierce(const SweptPoint& r, const SweptPoint& s, const SweptPoint& t) {
     const double at_r = cross(s, t), at_s = cross(t, r), at_t = cross(r, s),
                  area = at_r + at_s + at_t, sign = area < 0 ? -1 : 1;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Arrays of millions of entries that several threads fill: no entry is written before, so that
-// pages are allocated when they are filled, near to the thread that fills them and from all
-// threads at once. Large arrays are in large pages, where the system has them: queries read them
-// here and there, and finding a page takes as long as reading from it.
+// Arrays of millions of entries that several threads fill. No entry is written before, so pages are
+// allocated when a thread fills them: in parallel, and in memory near that thread. Large arrays use
+// large pages if the system has them, since random reads spend half their time on finding the page.
 #pragma once
 
 #include <memory>
@@ -18,7 +17,7 @@ namespace minkray {
 
 inline constexpr std::size_t large_page = std::size_t{1} << 21;  ///< bytes, on x86-64 and ARM64
 
-/// Leaves new entries unwritten where no value is given.
+/// Leaves new entries uninitialised if no value is given.
 template <class T>
 struct FirstTouchAllocator : std::allocator<T> {
   template <class U>
@@ -30,7 +29,7 @@ struct FirstTouchAllocator : std::allocator<T> {
     if (count > static_cast<std::size_t>(-1) / 2 / sizeof(T)) throw std::bad_array_new_length();
     T* const at = static_cast<T*>(::operator new(bytes, std::align_val_t(alignment_of(bytes))));
 #if defined(__linux__)
-    // A wish: nothing is lost if it is not fulfilled.
+    // Only a hint: failure does no harm.
     if (bytes >= large_page) madvise(at, bytes, MADV_HUGEPAGE);
 #endif
     return at;
@@ -52,7 +51,8 @@ struct FirstTouchAllocator : std::allocator<T> {
   }
 };
 
-/// `resize` leaves what is new to be written before it is read. T needs no destructor.
+/// `resize` leaves new entries uninitialised; write them before they are read. T needs no
+/// destructor.
 template <class T>
 using FirstTouchVector = std::vector<T, FirstTouchAllocator<T>>;
 

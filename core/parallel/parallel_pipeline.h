@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Items pass through: made one after another, worked on at once, and taken in their order.
+// A pipeline: items are read one after another, processed in parallel, and written in their order.
 #pragma once
 
 #include <cstddef>
@@ -8,14 +8,15 @@
 
 namespace minkray {
 
-/// This is parallel_pipeline for items of any kind.
+/// Same as parallel_pipeline, for items of unspecified type.
 void pipeline_of_any(std::size_t most, const std::function<std::shared_ptr<void>()>& read,
                      const std::function<void(void*)>& work,
                      const std::function<void(void*)>& write);
 
-/// read() -> shared_ptr<Item> makes the items, one at a time; none is the end. work(Item&) is
-/// called for several items at once, write(Item&) for one at a time, in the order they were made
-/// in. At most `most` items are on their way. An exception ends the pipeline and is passed on.
+/// read() returns the next item as a shared_ptr<Item>, or null at the end. work(Item&) is called
+/// for several items in parallel, write(Item&) for one item at a time, in the order of reading. At
+/// most `most` items are in the pipeline at a time. An exception ends the pipeline and reaches the
+/// caller.
 template <class Item, class Read, class Work, class Write>
 void parallel_pipeline(std::size_t most, const Read& read, const Work& work, const Write& write) {
   pipeline_of_any(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Long ranges are folded on several threads and joined in order, so that a result has the same bits
-// for any number of threads.
+// Reduces long ranges on several threads and joins the parts in order, so results have the same
+// bits for any number of threads.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace minkray {
 
-/// Calls fold(result, i) for all i of [begin, end), for index ranges whose bounds do not depend on
-/// the number of threads, and join(result, of_range) in the order of the ranges.
+/// Splits [begin, end) into ranges that do not depend on the number of threads. Calls fold(result,
+/// i) for all i of a range, and join(result, of_range) in the order of the ranges.
 template <class Result, class Fold, class Join>
 Result parallel_reduce(std::size_t begin, std::size_t end, const Fold& fold, const Join& join) {
   constexpr std::size_t range_size = 8192;  // tens of microseconds of work

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A body for walks over pairs: nested boxes about the body's middle, down to leaves of up to eight
-// convex parts. A shape is one leaf with one part.
+// A body for traversals of pairs: nested boxes relative to the body's middle, down to leaves of up
+// to eight convex parts. A shape is one leaf with one part.
 #pragma once
 
 #include "core/parts/box_gaps.h"
@@ -20,7 +20,7 @@ class BodyTree {
   /// Radius of a ball around the middle that contains the body.
   double radius() const { return radius_; }
 
-  /// A box: the body's own, or a child of a node, encoded as the node's number and the child's
+  /// A box: that of the body, or a child of a node. Encodes the node's number and the child's
   /// index.
   using Box = std::uint32_t;
   static constexpr Box whole = ~Box{0};
@@ -30,20 +30,21 @@ class BodyTree {
     return box == whole ? whole_ : child(box >> 3, static_cast<int>(box & 7));
   }
 
-  /// Gets the boxes in a box that is not a leaf. Returns their number.
+  /// Writes the boxes inside a box that is not a leaf. Returns their number.
   int open(Box box, EightBoxes& boxes, Box* children) const;
-  /// Gets the boxes of a leaf's parts. Returns their number.
+  /// Writes the boxes of a leaf's parts. Returns their number.
   int open_leaf(Box box, EightBoxes& boxes, std::uint32_t* parts) const;
 
-  /// Gets the triangles of a leaf of a mesh, about the body's middle, mapped by `at` if not null.
+  /// Writes the triangles of a mesh's leaf, relative to the body's middle, mapped by `at` if not
+  /// null.
   void open_leaf(Box box, EightTriangles& triangles, const Turned* at = nullptr) const;
 
   TriangleCorners triangle(std::uint32_t part) const {
     return {mesh()->corner(part, 0) - middle_, mesh()->corner(part, 1) - middle_,
             mesh()->corner(part, 2) - middle_};
   }
-  /// Largest n . p over the body's points p, about its middle and in its frame. Meshes use their
-  /// box.
+  /// Largest n . p over the body's points p, relative to its middle and in its frame. For a mesh:
+  /// over the points of its box.
   double reach_along(const Vec3<double>& n) const;
 
  private:

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Lower bounds of the distances from eight boxes to another box, whose axes may be rotated: the
-// most frequent query when two bodies' boxes are traversed. The bounds use the face normals of both
-// boxes as separating axes, the line between two middles, and a known good direction.
+// Lower bounds of the distances from eight boxes to another box, whose axes may be rotated. This is
+// the most frequent query when the boxes of two bodies are traversed. Separating axes are the face
+// normals of both boxes, the line between the two middles, and a known good direction.
 #pragma once
 
 #include "core/math/vec.h"
 
 namespace minkray {
 
-/// A box given by its middle and half extents, cut to a slab between two planes perpendicular to
-/// `normal` unless that is 0.
+/// A box given by its middle and half extents. Unless `normal` is 0, the box is also cut by two
+/// planes perpendicular to `normal`.
 struct MiddleBox {
   Vec3<double> middle = Vec3<double>::Zero(), half = Vec3<double>::Zero();
   Vec3<double> normal = Vec3<double>::Zero();
@@ -19,7 +19,7 @@ struct MiddleBox {
 struct EightBoxes {
   static constexpr int most = 8;
   alignas(32) double middle[3][most];
-  alignas(32) double half[3][most];  ///< any number if there is no box
+  alignas(32) double half[3][most];  ///< undefined in unused lanes
   alignas(32) double normal[3][most];
   alignas(32) double low[most];
   alignas(32) double high[most];
@@ -44,7 +44,7 @@ struct EightBoxes {
 /// Upper bound of n . p over the points p in the box.
 inline double reach_along(const MiddleBox& box, const Vec3<double>& n) {
   const double by_box = n.dot(box.middle) + n.cwiseAbs().dot(box.half);
-  // Splits n into a part perpendicular to the slab and a rest, which the box bounds.
+  // Splits n into a part perpendicular to the slab and the rest. The box bounds the rest.
   const double across = n.dot(box.normal);
   const Vec3<double> rest = n - across * box.normal;
   const double by_slab = across * (across < 0 ? box.low : box.high) + rest.dot(box.middle) +
@@ -58,8 +58,8 @@ struct Turned {
   Vec3<double> shift;
 };
 
-/// A unit vector in the frame of the eight that points to the other box. `reach` bounds the other
-/// box's extent back along it, from the origin of its own frame.
+/// A unit vector, in the frame of the eight boxes, that points to the other box. `reach` bounds the
+/// extent of the other box in the opposite direction, from the origin of its own frame.
 struct KnownDirection {
   Vec3<double> along;
   double reach;

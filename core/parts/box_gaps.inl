@@ -7,7 +7,8 @@
 namespace minkray {
 namespace {
 
-/// Distance by three axes; if the boxes overlap along all of them, the gap along the best axis.
+/// Distance from the gaps along three axes. If the boxes overlap along all axes, the gap along the
+/// best axis.
 template <class W>
 W gap_of_axes(const Vec3<W>& apart) {
   const Vec3<W> far(max(apart.x(), W(0)), max(apart.y(), W(0)), max(apart.z(), W(0)));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Nearest points of two triangles that do not cross: on an edge of each, or a corner of one and a
-// point of the other's face (C. Ericson, "Real-Time Collision Detection", 2004, 5.1.9 and 5.1.10).
-// Processes three edges or corners at once, in lanes.
+// Nearest points of two triangles that do not cross. These are on an edge of each triangle, or one
+// is a corner and the other on a face (C. Ericson, "Real-Time Collision Detection", 2004, 5.1.9 and
+// 5.1.10). Processes three edges or corners at once, in lanes.
 #pragma once
 
 #include "core/parts/triangle_pair.h"

@@ -14,8 +14,7 @@ struct Sight {
   Turned b_in_a, a_in_b;
   Vec3<double> middle_a;  ///< in the world
   Mat3<double> turn_a;    ///< from A's frame to the world
-  double rounding;        ///< error bound of what is computed in A's frame: points, boxes,
-                          ///< distances
+  double rounding;        ///< error bound of points, boxes and distances in A's frame
 
   Sight(const BodyTree& a, const Affine<double>& pose_a, const BodyTree& b,
         const Affine<double>& pose_b);
@@ -26,8 +25,8 @@ class PairWalk {
   PairWalk(const BodyTree& a, const BodyTree& b, const Sight& sight)
       : a_(a), b_(b), sight_(sight) {}
 
-  /// Sets a unit vector in A's frame that points from A to B. Planes perpendicular to it are likely
-  /// to separate many of the pairs that follow.
+  /// Sets a unit vector in A's frame that points from A to B. Perpendicular planes are likely to
+  /// separate many of the following pairs.
   void set_direction(const Vec3<double>& n) {
     has_direction_ = true;
     n_ = n;
@@ -37,13 +36,15 @@ class PairWalk {
   }
   bool has_direction() const { return has_direction_; }
   const Vec3<double>& direction() const { return n_; }
-  /// Extent of shape A along the direction, and of shape B against it, from their middles.
+  /// Extent of shape A along the direction, and of shape B in the opposite direction, from their
+  /// middles.
   double up_a() const { return up_a_; }
   double down_b() const { return down_b_; }
 
   /// Calls visit(part_a, part_b) for pairs until it returns true. key(gap, box_a, box_b) is a lower
-  /// bound of what the visit finds, below 0 for boxes that overlap. Omits pairs whose key is above
-  /// limit(). Returns the least key of the omitted pairs, or 0 after a visit that returned true.
+  /// bound of the value that the visit finds, below 0 for boxes that overlap. Omits pairs whose key
+  /// is above limit(). Returns the least key of the omitted pairs, or 0 after a visit that returned
+  /// true.
   template <class Key, class Limit, class Visit>
   double run(const Key& key, const Limit& limit, const Visit& visit) {
     return run_leaves(key, limit, [&](BodyTree::Box a, BodyTree::Box b) {
@@ -81,7 +82,7 @@ class PairWalk {
   }
   /// Records that a pair with this key was omitted.
   void leave_out(double key) { left_out_ = std::min(left_out_, key); }
-  /// Returns true if a visit ends the walk.
+  /// Returns true if a visit ends the traversal.
   template <class Key, class Limit, class Visit>
   bool visit_leaves(BodyTree::Box leaf_a, BodyTree::Box leaf_b, const Key& key, const Limit& limit,
                     const Visit& visit);
@@ -164,7 +165,7 @@ double PairWalk::run_leaves(const Key& key, const Limit& limit, const VisitLeave
     open_.pop_back();
     if (pair.key > limit()) return std::min(left_out_, pair.key);
     MiddleBox box_a = a_.bounds(pair.a), box_b = b_.bounds(pair.b);
-    if (has_direction_) {  // may have been set since the pair was queued
+    if (has_direction_) {  // perhaps set after the pair was queued
       const double again = key(gap_along_direction(box_a, box_b) - sight_.rounding, box_a, box_b);
       if (again > limit()) {
         leave_out(again);
@@ -191,8 +192,7 @@ double PairWalk::run_leaves(const Key& key, const Limit& limit, const VisitLeave
         if (its > limit())
           leave_out(its);
         else
-          order.add(its == its ? its : least, i);  // NaN, from numbers that are too large, counts
-                                                   // as no bound
+          order.add(its == its ? its : least, i);  // NaN (from overflow) gives no bound
       }
       if (order.size() == 0) break;
       const auto child = [&](int i) -> Open {

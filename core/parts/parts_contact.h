@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Contact points of two bodies, and derivatives of their distance and time of impact, for the two
+// Contact points of two bodies, and derivatives of their distance and time of impact. Uses the two
 // parts that are nearest or touch first.
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace minkray {
 
-/// Considers only the two parts that are nearest, or that cross. Returns no points if one body is
-/// inside the other without crossing it.
+/// Uses only the two parts that are nearest or that cross. Returns no points if one body is inside
+/// the other and their surfaces do not cross.
 ContactManifold contact_manifold(const PartsBody& a, const Affine<double>& pose_a,
                                  const PartsBody& b, const Affine<double>& pose_b);
 
@@ -18,7 +18,7 @@ ContactManifold contact_manifold(const PartsBody& a, const Affine<double>& pose_
 /// and marked as a ridge.
 PairDerivative derivative_of(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
                              const Affine<double>& pose_b);
-/// Same as the one for shapes; a mesh is on a ridge if several vertices are lowest.
+/// Same as the function for shapes. A mesh is on a ridge if several vertices are lowest.
 PairDerivative derivative_at_half_space(const Vec3<double>& origin, const PartsBody& b,
                                         const Affine<double>& pose_b, const SignedDistance& found,
                                         PairDerivativeError* error = nullptr,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Signed distance of two bodies, at least one a mesh: the least distance over all pairs of their
-// parts (a mesh's triangles, or the whole convex shape). Parts are convex, so each pair has proven
-// bounds; the least lower and the least upper bound hold for the bodies.
+// parts (a mesh's triangles, or the convex shape itself). Parts are convex, so each pair has proven
+// bounds. The least lower bound and the least upper bound hold for the bodies.
 #pragma once
 
 #include "core/pair_distance/signed_distance.h"
@@ -9,18 +9,18 @@
 
 namespace minkray {
 
-/// Distance of the surfaces. If they cross, or one body lies within the other, the status is
-/// overlapping, and value and both bounds are 0: there is no depth. Only closed meshes can contain
-/// bodies. If surfaces cross, the points lie on two crossing parts. If one body is inside the
-/// other, both points are one point of the inner body. The normal is that of a crossed face. The
-/// poses must be rigid.
+/// Distance of the surfaces. If the surfaces cross, or one body lies within the other, the status
+/// is overlapping, and value and both bounds are 0, since no depth is computed. Only closed meshes
+/// can contain bodies. If surfaces cross, the points lie on two crossing parts. If one body is
+/// inside the other, both points are the same point of the inner body. The normal is that of a
+/// crossed face. The poses must be rigid.
 SignedDistance signed_distance(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
                                const Affine<double>& pose_b,
                                const SignedDistanceOptions& options = {},
                                PartPair* parts = nullptr);
 
-/// Tests one point of each body against the other body's mesh; returns one that is inside. Always
-/// finds one if a mesh encloses the other body without crossing it.
+/// Tests one point of each body against the other body's mesh. Returns a point that is inside;
+/// there always is one if a mesh encloses the other body without crossing it.
 std::optional<Vec3<double>> point_within(const PartsBody& a, const Affine<double>& pose_a,
                                          const PartsBody& b, const Affine<double>& pose_b);
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Lower bounds of the distances from eight triangles to another one, by planes perpendicular to the
-// faces' normals, to the line between two middles, and to a known good direction. Pairs that these
-// do not settle go to triangle_pair.h.
+// Lower bounds of the distances from eight triangles to another triangle, by planes perpendicular
+// to the faces' normals, to the line between two middles, and to a known good direction. Pairs that
+// these bounds do not decide go to triangle_pair.h.
 #pragma once
 
 #include "core/parts/triangle_pair.h"
 
 namespace minkray {
 
-/// Eight triangles in one frame. Normals have unit length; those of slivers are 0.
+/// Eight triangles in one frame. Normals have unit length, or are 0 for slivers.
 struct EightTriangles {
   static constexpr int most = 8;
   int count = 0;
@@ -30,8 +30,8 @@ struct EightTriangles {
   double reach_along(const Vec3<double>& n) const;
 };
 
-/// `known`, if not null, is a unit vector from the one to the eight. Bounds have no margin for
-/// rounding and may be below 0.
+/// Writes lower bounds of the distances, without a margin for rounding; they may be below 0.
+/// `known`, if not null, is a unit vector from the triangle `one` towards the eight triangles.
 void triangle_gaps(const TriangleCorners& one, const Vec3<double>& normal,
                    const EightTriangles& eight, const Vec3<double>* known, double* gaps);
 /// Both functions return the same bits.

@@ -29,8 +29,8 @@ W most_of(const W& a, const W& b, const W& c) {
 
 template <class W>
 W gaps_of(const TriangleOfLane<W>& one, const TriangleOfLane<W>& other, const Vec3<double>* known) {
-  // Relative to the first corner of the one, so that numbers have the size of the triangles and of
-  // their distance.
+  // Positions are relative to the first corner of `one`, so numbers are as large as the triangles
+  // and their distance.
   const Vec3<W>& from = one.corners[0];
   Vec3<W> own[2], of_other[3];
   for (int k = 0; k < 2; ++k) own[k] = one.corners[k + 1] - from;

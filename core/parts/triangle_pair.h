@@ -12,8 +12,8 @@ namespace minkray {
 using TriangleCorners = std::array<Vec3<double>, 3>;
 
 /// `lower` is the gap between planes perpendicular to the normal, `upper` the distance of the
-/// points, both without a margin for rounding. `lower` is 0 or less if the triangles cross, and may
-/// be so for slivers, for which the closed form has too few digits.
+/// points, both without a margin for rounding. `lower` is 0 or less if the triangles cross. This
+/// may also happen for slivers, for which the closed form has too few digits.
 struct TriangleGap {
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
@@ -27,11 +27,11 @@ inline double reach_along(const TriangleCorners& triangle, const Vec3<double>& n
   return std::max({n.dot(triangle[0]), n.dot(triangle[1]), n.dot(triangle[2])});
 }
 
-/// Gap between two planes across the unit vector n, with a and b on their outer sides.
+/// Gap between two planes perpendicular to the unit vector n, with a and b on their outer sides.
 double gap_along(const TriangleCorners& a, const TriangleCorners& b, const Vec3<double>& n);
 
-/// True if an edge of one triangle passes through the other even if each corner moves by up to
-/// `loss`. `common` is then a point on both, or within `loss` of it.
+/// True if an edge of one triangle passes through the other, and still does if each corner moves by
+/// up to `loss`. `common` is then within `loss` of a point of both triangles.
 bool surely_cross(const TriangleCorners& a, const TriangleCorners& b, double loss,
                   Vec3<double>& common);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Planes around a polytope, stored so that several are tested together, and the scan of a line
-// between all of them. Compiled once for each instruction set, without fused operations: results
+// Planes around a polytope, stored so that several are tested together, and the test of a line
+// against all planes. Compiled once for each instruction set, without fused operations, so results
 // are bit-identical.
 #pragma once
 
@@ -10,13 +10,14 @@
 
 namespace minkray::exact {
 
-/// The planes n.x = offset as rows of numbers, four planes per row: n.x, n.y, n.z, the offset, and
-/// the depth: the distance by which the plane would have to move in to be below its triangles.
+/// The planes n.x = offset as rows of numbers, four planes per row: n.x, n.y, n.z, offset, depth.
+/// The depth is the distance by which the plane would have to move inwards to be below its
+/// triangles.
 class PlaneRows {
  public:
   static constexpr std::size_t planes_a_row = 4, numbers_a_plane = 5;
 
-  /// Adds a plane; the rest of the last row repeats it.
+  /// Adds a plane. Unused items of the last row repeat the plane.
   void add(const Vec3<double>& normal, double offset, double depth);
 
   std::size_t size() const { return size_; }
@@ -30,10 +31,12 @@ class PlaneRows {
   std::size_t size_ = 0;
 };
 
-/// The plane that a line enters last, and the one that it leaves first; the first one among ties.
+/// The plane that a line enters last, and the plane that it leaves first; among ties the first
+/// plane.
 struct PlaneScan {
   double in = 0, out = 0;
-  /// The latest entry, and the earliest exit, if all planes are moved in by their depths and E.
+  /// The latest entry, and the earliest exit, if all planes are moved inwards by their depths and
+  /// E.
   double in_hi = 0, out_lo = 0;
   std::size_t entered = 0, left = 0;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The body of the scan of planes. MINKRAY_PLANE_SCAN is the function's name. Everything else here
-// has the type of the lanes, and so the instruction set, in its name: see core/math/wide.h.
+// Body of the scan of planes. MINKRAY_PLANE_SCAN is the function's name; all other names here
+// contain the instruction set (core/math/wide.h).
 #include "core/math/wide.h"
 #include "core/polytope/plane_rows.h"
 
@@ -21,8 +21,8 @@ void scan(const PlaneRows& planes, const Line<double>& line, PlaneScan& found) {
     for (std::size_t from = 0; from < a_row; from += lanes) {
       const double* const row = planes.row(r) + from;
       const W x = W::load(row), y = W::load(row + a_row), z = W::load(row + 2 * a_row);
-      // In the order in which settle_hit() has them: where planes are nearly along the line, sums
-      // in another order are elsewhere.
+      // Sums in the same order as in settle_hit(). For planes nearly parallel to the line, another
+      // order would give a different result.
       const W slope = x * d.x() + (y * d.y() + z * d.z());
       const W room = W::load(row + 3 * a_row) - (x * s.x() + (y * s.y() + z * s.z()));
       const W inv = W(1) / max(abs(slope), least);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters the convex hull of points: by walking over its triangles to the one
-// that the line passes through or, if that is in doubt or the hull has few facets, by testing all
-// its planes. Each plane has a bound on the depth of its triangles' points below it, so the proof
-// does not depend on how planes were found (docs/forms.md, "Polytopes with an error bound").
+// Finds where a line enters the convex hull of points: by a walk over the triangles to the one that
+// the line passes through. If the walk is undecided or the hull has few facets, tests all planes
+// instead. Each plane has a bound on the depth of its triangles' points below the plane. The proof
+// therefore holds for planes from any source (docs/forms.md, "Polytopes with an error bound").
 #pragma once
 
 #include <memory>
@@ -17,22 +17,22 @@ namespace minkray::exact {
 class Polytope {
  public:
   /// Null if there are no facets or too many points, or if the hull is flat or not thicker than the
-  /// depths of its planes. For rounded_by > 0, also null if it is not convex or its triangles are
-  /// so low that rounding decides which features are next to a line. Points are multiplied by
-  /// `down` first.
+  /// depths of its planes. For rounded_by > 0, also null if the hull is not convex, or if its
+  /// triangles are so low that rounding confuses their features. Points are multiplied by `down`
+  /// first.
   template <class T>
   static std::shared_ptr<const Polytope> of(const PointCloud<T>& points, const Vec3<double>& middle,
                                             double down, double rounded_by = 0);
 
   /// A triangle with two sides, grown by a radius; corners are relative to the middle. Null if the
-  /// radius is 0 or the triangle too low.
+  /// radius is 0 or the triangle is too low.
   static std::shared_ptr<const Polytope> of(const std::array<Vec3<double>, 3>& corners,
                                             double rounded_by);
 
   /// Radius of a ball around the middle that contains the polytope.
   double radius() const { return radius_; }
-  /// Bound of the displacement by rounding, across the line, of the point where a line crosses a
-  /// plane or meets an adjacent feature of the grown polytope; to be added to the line's E.
+  /// Bound of the rounding error, across the line, of the point where a line crosses a plane or
+  /// meets an adjacent feature of the grown polytope. Add this to the line's E.
   double rounding() const { return rounding_; }
   std::size_t planes() const { return tables_.plane_count(); }
   const PolytopeTables& tables() const { return tables_; }

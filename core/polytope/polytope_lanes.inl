@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lines in lanes over a polytope. Everything here has the type of the lanes, and so the instruction
-// set, in its name: see core/math/wide.h.
+// Lines in lanes over a polytope. All names here contain the instruction set (core/math/wide.h).
 #include "core/polytope/polytope.h"
 #include "core/polytope/polytope_rounded.h"
 

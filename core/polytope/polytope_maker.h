@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Fills a polytope's tables: triangles and their neighbours, planes that support all points, and a
-// map from directions to triangles. Included by polytope.cpp alone.
+// map from directions to triangles. Only polytope.cpp includes this file.
 #pragma once
 
 #include <algorithm>
@@ -53,7 +53,8 @@ class Polytope::Maker {
     made_.tables_.inner = (vertices_[0] + vertices_[1] + vertices_[2]) / 3;
   }
 
-  /// Finds the planes, beginning with the largest triangles, so that slivers use their planes.
+  /// Finds the planes, beginning with the largest triangles, so that slivers use planes of larger
+  /// neighbours.
   void find_planes() {
     own_.resize(triangles_.size());
     std::vector<double> areas(triangles_.size());
@@ -70,8 +71,8 @@ class Polytope::Maker {
     for (const std::size_t f : order) choose_plane(f);
   }
 
-  /// Finds the points' mean. True if it lies within all planes after they move in by their depths,
-  /// which the proof requires.
+  /// Finds the points' mean. True if the mean lies below all planes moved inwards by their depths,
+  /// as the proof requires.
   bool find_inside() {
     Vec3<Long> mean = Vec3<Long>::Zero();
     for (const Vec3<double>& p : vertices_) mean += p.cast<Long>();
@@ -144,7 +145,7 @@ class Polytope::Maker {
     }
     const double room = static_cast<double>(least) / made_.radius_;
     if (!(room > tolerance::rounded_polytope_height)) return false;
-    // A feature that seems to fall rises by no more than rounding if it is adjacent, and by
+    // A feature that seems to fall may rise: by no more than rounding if it is adjacent, and by
     // proportionally more if it is further away.
     made_.radius_ += made_.tables_.rounded_by;
     made_.rounding_ = tolerance::polytope_rounding * made_.radius_ + 2 * made_.rounding_ / room;
@@ -196,7 +197,7 @@ class Polytope::Maker {
     return false;
   }
 
-  /// Unit vectors are rounded only once, so that slender triangles keep their digits.
+  /// Rounds unit vectors only once, so that slender triangles keep their digits.
   void fill_feature(std::uint32_t half_edge, std::uint32_t twin) {
     const std::uint32_t after = next(half_edge);
     const Vec3<double>& a = vertices_[origin(half_edge)];
@@ -212,7 +213,7 @@ class Polytope::Maker {
             static_cast<double>(twin), u.x(), u.y(), u.z(), static_cast<double>(length)});
   }
 
-  /// Uses the shorter edges, whose rounding is least.
+  /// Uses the shorter edges, since these have the least rounding.
   Vec3<double> normal_of(const Triangle& triangle) const {
     const Vec3<double>&a = vertices_[triangle.corner[0]], &b = vertices_[triangle.corner[1]],
           &c = vertices_[triangle.corner[2]];
@@ -246,8 +247,8 @@ class Polytope::Maker {
     return plane.offset - lowest;
   }
 
-  /// Uses the plane of a neighbour if the corners are as near to it as to the triangle's own plane,
-  /// or within rounding.
+  /// Uses a neighbour's plane if the corners are as near to this plane as to the triangle's own, or
+  /// within rounding.
   void choose_plane(std::size_t f) {
     const Triangle& triangle = triangles_[f];
     const bool has_normal = own_[f].normal.squaredNorm() > 0;

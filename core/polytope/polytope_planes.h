@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lines between a polytope's planes: where they enter the last plane, or leave the first. The same
-// code for one line and for one line per lane.
+// Tests lines against a polytope's planes: finds the last plane that a line enters, and the first
+// that it leaves. One line and packets with one line per lane share this code.
 #pragma once
 
 #include "core/math/gather_rows.h"
@@ -28,8 +28,8 @@ struct PlaneRow {
   }
 };
 
-/// Sets the hit at the plane that the line enters last, if the plane is not too steep: the cosine
-/// of the angle between the line and the normal must be more than `steepest`.
+/// Sets the hit at the plane that the line enters last, unless the plane is too steep: the cosine
+/// of the angle between line and normal must be above `steepest`.
 template <class W>
 void settle_hit(const PolytopeTables& of, const W& plane, const Line<W>& line, const Mask<W>& open,
                 Lane<W> steepest, Entry<W>& entry) {
@@ -49,7 +49,7 @@ void settle_hit(const PolytopeTables& of, const W& plane, const Line<W>& line, c
   entry.normal = select<W>(hit, at.normal, entry.normal);
 }
 
-/// Sets a miss if the line enters one plane after it leaves the other.
+/// Sets a miss if the line enters one plane after it leaves another.
 template <class W>
 void settle_miss(const PolytopeTables& of, const W& entered, const W& left, const Line<W>& line,
                  const Mask<W>& open, Entry<W>& entry) {
@@ -73,7 +73,7 @@ struct PlanesPassed {
   W entered = W(0), left = W(0);
 };
 
-/// Tests all planes, with the operations of plane_scan.inl; here, lanes are lines, not planes.
+/// Tests all planes, with the same operations as plane_scan.inl. Lanes are lines here, not planes.
 template <class W>
 PlanesPassed<W> pass_planes(const PolytopeTables& of, const Line<W>& line) {
   using std::abs;

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a polytope that is grown by a radius: at the nearest face moved out,
-// the cylinder around an edge or the ball around a vertex, whichever no neighbour rises above at
-// its contact. Walks from feature to feature as Lin and Canny do ("A Fast Algorithm for Incremental
-// Distance Calculation", 1991); the same code for one line and for one line per lane.
+// Finds where a line enters a polytope that is grown by a radius: at a face moved outwards, the
+// cylinder around an edge or the ball around a vertex. A feature supports if no neighbour rises
+// above it at its contact. Walks from feature to feature (Lin and Canny, "A Fast Algorithm for
+// Incremental Distance Calculation", 1991) to the one that supports. One line and packets share
+// this code.
 #pragma once
 
 #include "core/polytope/polytope_walk.h"
 
 namespace minkray::exact {
 
-/// Tests all features for the one that supports: for lines whose walk failed.
+/// Tests all features for the one that supports. For lines whose walk failed.
 Entry<double> enter_any_feature(const PolytopeTables& of, const Line<double>& line);
 
-/// Feature of the surface that a half-edge represents: its triangle, itself, its origin.
+/// Feature of the surface that a half-edge represents: its triangle, its edge, or its origin.
 namespace feature {
 inline constexpr double none = 0, face = 1, edge = 2, vertex = 3;
 }
@@ -24,7 +25,7 @@ class RoundedWalk {
       : of_(polytope), r_(polytope.rounded_by), line_(line) {}
 
   /// Walks from a triangle or an edge, feature by feature, to the one that supports. Lanes that
-  /// find none are `lost`.
+  /// find none are set in `lost`.
   Entry<W> from(const WalkEnd<W>& start, Mask<W>& lost) {
     constexpr int most_features = 24;
     feature_ = select(start.in_triangle, W(feature::face),
@@ -37,7 +38,7 @@ class RoundedWalk {
     return entry_;
   }
 
-  /// Tests one feature only; false if it leads to another one.
+  /// Tests one feature only; false if the test leads to another feature.
   bool settles_at(double which, double edge) requires(std::is_same_v<W, double>) {
     entry_ = {};
     feature_ = which;
@@ -52,11 +53,11 @@ class RoundedWalk {
   struct Contact {
     Mask<W> meets, is_clear;
     W t, e;
-    Vec3<W> out;  ///< from the axis or centre to the line there
+    Vec3<W> out;  ///< from the axis or centre to the contact
   };
   using Numbers = std::array<W, 12>;
 
-  /// Tests each lane's feature; false if none leads to another one.
+  /// Tests each lane's feature; false if no test leads to another feature.
   bool look() {
     const Mask<W> at_faces = feature_ == W(feature::face);
     if (any(at_faces)) look_at_face(at_faces);
@@ -86,7 +87,8 @@ class RoundedWalk {
   static Vec3<W> along(const Numbers& of) { return vector(of, 8); }
   static W length(const Numbers& of) { return of[11]; }
 
-  /// Goes to a half-edge's triangle or, if that faces away, to the nearer of its other two edges.
+  /// Goes to a half-edge's triangle or, if the triangle faces away, to the nearer of its other two
+  /// edges.
   void go_over(const Mask<W>& which, const W& edge) {
     const PlaneRow<W> plane(of_, plane_of(of_, edge));
     const Mask<W> faces = plane.normal.dot(line_.d) < W(-least_component<W>);
@@ -104,7 +106,8 @@ class RoundedWalk {
     go_to(away, feature::edge, select(distance(second) < distance(third), second, third));
   }
 
-  /// The line is from + t way, both perpendicular to the axis; `across` is the square of `way`.
+  /// The line is from + t way, both perpendicular to the axis; `across` is the squared length of
+  /// `way`.
   Contact contact(const Vec3<W>& from, const Vec3<W>& way, const W& across) const {
     using std::abs;
     using std::max;
@@ -122,9 +125,9 @@ class RoundedWalk {
     return found;
   }
 
-  /// Sets a hit or miss. In doubt if another feature begins so near that its formula might apply,
-  /// and the two formulas differ by more than E (docs/forms.md, section 13); or if the normal leans
-  /// over the next feature, since the normal of a small radius has a large error.
+  /// Sets a hit or miss. Undecided if another feature begins so near that its formula might apply,
+  /// and the two formulas differ by more than E (docs/forms.md, section 13). Also undecided if the
+  /// normal leans over the next feature, since for a small radius the normal has a large error.
   void settle(const Mask<W>& which, const Contact& found, const W& nearest_end) {
     feature_ = select(which, W(feature::none), feature_);
     const W width = found.e * found.e * line_.dd;
@@ -186,8 +189,8 @@ class RoundedWalk {
     const W at = s_along + d_along * found.t;
     leave(at < W(0), feature::vertex, here);
     leave(at > length(edge), feature::vertex, next(edge));
-    // The edge supports if both adjacent triangles fall away and, in case they are in one plane, so
-    // do the triangles behind them.
+    // The edge supports if both adjacent triangles fall away. If these are in one plane, the
+    // triangles behind them must fall away, too.
     if (!any(which)) return;
     const W other = twin(edge);
     const W rise = found.out.dot(inwards(edge));
@@ -260,8 +263,8 @@ void find_lost(const PolytopeTables& of, const Line<W>& line, const Mask<W>& los
 }
 
 /// Finds where lines that meet the ball enter the polytope grown by a radius. Starts from a face
-/// whose normal is likely to be near that of the entry or, if that faces away, from where the line
-/// passes the polytope itself.
+/// whose normal is likely to be near that of the entry. If this face faces away, starts where the
+/// line passes the polytope without radius.
 template <class W>
 Entry<W> enter_features(const PolytopeTables& of, const Line<W>& line, const Mask<W>& open) {
   WalkEnd<W> start;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Tables for walks over a polytope: rows of numbers that the lanes of a packet gather. Links are
-// numbers, too: indices of half-edges. Triangle f has 3 f, 3 f + 1, 3 f + 2, counter-clockwise from
-// outside.
+// indices of half-edges, stored as numbers. Triangle f has the half-edges 3 f, 3 f + 1 and 3 f + 2,
+// counter-clockwise from outside.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,15 @@ struct PolytopeTables {
   static constexpr std::size_t vertex_row = 4;
   std::vector<double> vertices;
 
-  /// One row per half-edge: the third corner of the triangle beyond, and the half-edge after its
-  /// twin, negative if that is the last one of its triangle.
+  /// One row per half-edge: the third corner of the triangle beyond it, and the half-edge after its
+  /// twin (negative if it is the last of its triangle).
   static constexpr std::size_t walk_row = 4;
   std::vector<double> walk;
   std::vector<std::int32_t> links;  ///< copy of the fourth column
 
-  /// One row per half-edge: its origin, the next half-edge; the unit vector perpendicular to it
-  /// into its triangle, its twin; the unit vector along it, its length. Empty if the polytope is
-  /// not rounded.
+  /// One row per half-edge: its origin, the next half-edge; the unit vector into the triangle,
+  /// perpendicular to the edge, the twin; the unit vector along the edge, the edge's length. Empty
+  /// if the polytope is not rounded.
   static constexpr std::size_t feature_row = 12;
   std::vector<double> features;
 
@@ -40,7 +40,7 @@ struct PolytopeTables {
   std::vector<std::uint32_t> facing;  ///< for each cell of normals, a triangle's first half-edge
 
   double rounded_by = 0;                ///< the radius by which the polytope is grown
-  Vec3<double> inner = {0, 0, 0};       ///< a point well within
+  Vec3<double> inner = {0, 0, 0};       ///< a point clearly inside
   Vec3<double> by_extents = {1, 1, 1};  ///< 1 / half extents, grown by the radius
   bool has_avx2 = false;
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Points of a polytope as seen along a line.
+// Points of a polytope projected along a line.
 #pragma once
 
 #include "core/query/line.h"
 
 namespace minkray::exact {
 
-/// A point seen along the line. The line is at the origin.
+/// A point projected along the line. The line itself is projected to the origin.
 template <class W>
 struct Seen {
   W x, y;
@@ -17,8 +17,7 @@ W cross(const Seen<W>& a, const Seen<W>& b) {
   return a.x * b.y - a.y * b.x;
 }
 
-/// View along a line, which is at the origin. Outward triangles that face the line are
-/// counter-clockwise.
+/// Projection along a line. Triangles that face the line's origin are counter-clockwise.
 template <class W>
 class View {
  public:

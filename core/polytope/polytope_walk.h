@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Walk of a line over a polytope's triangles (Devillers, Pion and Teillaud, "Walking in a
-// Triangulation", 2002). The same code for one line and for one line per lane; lanes continue until
-// the last one has arrived.
+// Triangulation", 2002). One line and packets with one line per lane share this code; lanes
+// continue until the last lane has arrived.
 #pragma once
 
 #include "core/polytope/polytope_planes.h"
@@ -11,16 +11,17 @@
 
 namespace minkray::exact {
 
-/// End of a walk: in a triangle that the line passes through, clearly or not; or at an edge on the
-/// outline, if the line misses. If neither mask is set, the walk failed.
+/// End of a walk: in a triangle that the line passes through (clearly or within rounding) or, if
+/// the line misses, at an edge of the outline. If neither mask is set, the walk failed.
 template <class W>
 struct WalkEnd {
   Mask<W> in_triangle = Mask<W>(false), is_clear = Mask<W>(false), past_edge = Mask<W>(false);
-  W edge = W(0);    ///< a half-edge of the triangle; or the one that the line is beyond
+  W edge =
+      W(0);  ///< a half-edge of the triangle; for a miss, the half-edge that the line is beyond
   W beyond = W(0);  ///< a half-edge of the triangle beyond `edge`
 };
 
-/// True if, seen along the line, all edges are further from it than the error.
+/// True if all edges, projected along the line, are further from the line than the error.
 template <class W>
 Mask<W> is_clear(const std::array<Seen<W>, 3>& p, const std::array<W, 3>& side, const W& E) {
   using std::abs;
@@ -55,18 +56,18 @@ W facing_edge(const PolytopeTables& of, const Line<W>& line) {
                 [&](std::size_t cell) { return static_cast<double>(of.facing[cell]); });
 }
 
-/// Walks from a near start are short. Longer ones failed due to rounding.
+/// Walks from a near start are short; longer walks have failed due to rounding.
 inline constexpr int most_steps = 64;
 
-/// Seen along the line, the triangles that face it form a triangulation. The walk leaves each
-/// through the edge that the line is furthest beyond. If that leads to a triangle that faces away,
-/// the line misses.
+/// Projected along the line, the triangles that face the line's origin form a triangulation. The
+/// walk leaves each triangle through the edge that the line is furthest beyond. If the next
+/// triangle faces away, the line misses.
 template <class W>
 WalkEnd<W> follow(const PolytopeTables& of, const Line<W>& line, Mask<W> open) {
   using std::abs;
   const View<W> view(line);
   std::array<Seen<W>, 3> p;
-  // The triangle's half-edges, and twice the areas of the triangles between each and the line.
+  // The triangle's half-edges, and for each twice the area of the triangle it forms with the line.
   std::array<W, 3> edge, side;
   const auto begin_at = [&](const W& first) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -116,7 +117,7 @@ WalkEnd<W> follow(const PolytopeTables& of, const Line<W>& line, Mask<W> open) {
     }
     p = {to, from, last};
     side = {-least, right, left};
-    // The edge that was crossed is not crossed again.
+    // Excludes the edge that was just crossed.
     edge = {after, after, after + select(row[3] < W(0), W(-2), W(1))};
   }
   return end;
@@ -184,7 +185,7 @@ Entry<W> enter_planes(const PolytopeTables& of, const Line<W>& line, const Mask<
     const WalkEnd<W> end = follow(of, line, open);
     const Mask<W> through = end.in_triangle & end.is_clear;
     const W plane = plane_of(of, end.edge);
-    // If the line is nearly in a triangle's plane, rounding decides if it enters within the
+    // If the line is nearly in a triangle's plane, rounding decides if the line enters between the
     // triangle's edges. Such lines are tested against all planes.
     if (any(through))
       settle_hit(of, plane, line, through, tolerance::uncertain_slope<Lane<W>>, entry);

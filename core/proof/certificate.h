@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Certificates: short proofs of the claims of ray casts, checked with the support mapping alone
+// Certificates: short proofs of the results of ray casts, checked with only the support mapping
 // (core/proof/check_certificate.h, docs/certificates.md). For a hit, a supporting plane separates
 // the shape from the ray before t_lo, and at most four support points span a point of the shape on
-// the ray at t_hi. If the ray begins inside, they span its origin. A miss has a plane between the
-// shape and the ray.
+// the ray at t_hi. If the ray begins inside, the support points span the ray's origin. For a miss,
+// a plane lies between the shape and the ray.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@
 
 namespace minkray {
 
-/// The support mapping, the only access to the shape here: returns the point furthest along a
-/// direction of any length.
+/// The support mapping returns the point furthest along a direction of any length. This is the only
+/// access to the shape.
 using SupportFunction = std::function<Vec3<double>(const Vec3<double>&)>;
 
 /// The shape must outlive the function.
@@ -29,7 +29,7 @@ struct Claim {
   Status status = Status::exhausted;
   double t_base = 0, t_offset = 0;  ///< of hits: t is their sum
   Vec3<double> normal = Vec3<double>::Zero();
-  double epsilon = std::numeric_limits<double>::epsilon();  ///< of the solver's precision
+  double epsilon = std::numeric_limits<double>::epsilon();  ///< that of the solver's precision
 };
 
 template <class T>
@@ -44,18 +44,18 @@ struct WeightedSupport {
   double weight = 0;
 };
 
-/// The proof. Consists of directions only; the support mapping returns their points.
+/// The proof. Stores only directions; the support mapping returns their points.
 struct Certificate {
-  /// Hit: the normal of the plane that gives t_lo. Miss: of a plane between shape and ray. Zero if
-  /// none is needed or none was found.
+  /// Hit: the normal of the plane that gives t_lo. Miss: the normal of a plane between shape and
+  /// ray. Zero if no plane is needed or found.
   Vec3<double> plane = Vec3<double>::Zero();
-  /// Hit: they span a point on the ray; inside: its origin.
+  /// Hit: these points span a point on the ray. Inside: these points span the ray's origin.
   std::array<WeightedSupport, 4> spanning;
   int supports = 0;  ///< support calls of the search
 };
 
-/// Returns the best proof of the claim that is found; the checker decides if it holds. The search
-/// begins with the claim's normal. There is no proof for Status::exhausted.
+/// Returns the best proof of the claim that the search finds; the checker decides if the proof
+/// holds. The search begins with the claim's normal. There is no proof for Status::exhausted.
 Certificate certify(const SupportFunction& support, const Ray<double>& ray, const Claim& claim);
 
 }  // namespace minkray

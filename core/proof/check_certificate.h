@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checker of certificates: decides if a certificate proves a claim, in double, from support points
-// alone. Shares no code with the solvers; docs/certificates.md derives the tests.
+// Checker of certificates: decides in double if a certificate proves a claim, using only support
+// points. Shares no code with the solvers; docs/certificates.md derives the tests.
 #pragma once
 
 #include <string_view>
@@ -11,8 +11,8 @@
 namespace minkray {
 
 /// Error allowed in each condition, in units of the claim's machine epsilon times the `size` of
-/// NearSegment: support points, the ray near the shape, planes and sums of points are each rounded
-/// to a few of these units. See docs/certificates.md for measurements.
+/// NearSegment. The rounding of support points, of the ray near the shape, of planes and of sums of
+/// points is a few units each. See docs/certificates.md for measurements.
 inline constexpr double certificate_rounding = 64;
 
 /// Result of the checker. Lengths are in units of the scene.
@@ -20,15 +20,16 @@ struct CertificateVerdict {
   bool holds = false;
   std::string_view complaint;  ///< the first condition that fails; empty if it holds
 
-  /// Hit: t lies in t_base + [offset_lo, offset_hi]. The interval includes rounding: that of planes
-  /// and of the spanned point, perpendicular to the plane, is larger along the ray.
+  /// Hit: t lies in t_base + [offset_lo, offset_hi]. The interval includes the rounding of planes
+  /// and of the spanned point perpendicular to the plane, which is larger along the ray.
   double t_base = 0, offset_lo = 0, offset_hi = 0;
-  double offset_planes = 0;   ///< hit: where the ray crosses the last of the planes
-  double offset_spanned = 0;  ///< hit: at the spanned point; rounding may put planes beyond it
+  double offset_planes = 0;  ///< hit: where the ray crosses the last plane
+  double offset_spanned =
+      0;               ///< hit: at the spanned point; due to rounding, may be before the planes
   double gap = 0;      ///< hit: depth of the spanned point below the plane, (t_hi - t_lo) * cosine
   double lateral = 0;  ///< distance of the spanned point from the ray (hit) or origin (inside)
-  double margin = 0;   ///< miss: from the plane to the ray; negative if the ray crosses it
-  /// Hit: distance of the claimed point from the claimed plane, or its height above the proven one.
+  double margin = 0;   ///< miss: from the plane to the ray; negative if the ray crosses the plane
+  /// Hit: distance of the claimed point from the claimed plane, or height above the proven plane.
   double claim_error = 0;
   double late = 0;     ///< hit: distance along the ray of the claimed t beyond the proven t_hi
   double allowed = 0;  ///< limit of gap, lateral, -margin and claim_error

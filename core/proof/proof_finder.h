@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Finds the proof of a result by the GJK ray cast and the GJK distance of van den Bergen (2004).
-// Both end with a point that is spanned by support points. Points are relative to the shape's
-// middle.
+// Both end with a point that support points span. Points are relative to the shape's middle.
 #pragma once
 
 #include <cmath>
@@ -17,15 +16,16 @@ namespace minkray::proof {
 /// Limit of support points. Touching ellipsoids of 1:1000 took 160.
 inline constexpr int most_supports = 400;
 
-/// Angles of tilted directions. The first is the square root of the machine epsilon. The others are
-/// for normals that are less certain, and for hit points that are further from a corner.
+/// Angles of tilted directions. The first is the square root of the machine epsilon. The larger
+/// angles are for less certain normals, and for hit points further from a corner.
 inline constexpr std::array tilts = {0x1p-26, 0x1p-24, 0x1p-21, 0x1p-14};
 inline constexpr int tilt_directions = 6;
 inline constexpr int refinements = 24;
 
-/// Steps converge like Newton's method when they are near.
+/// Number of steps of the secant method; near the solution they converge like Newton's method.
 inline constexpr int secant_steps = 16;
-/// Factor of the next step's length after a step without effect, such as within a corner's normals.
+/// After a step without effect, such as within a corner's normals, the next step is longer by this
+/// factor.
 inline constexpr double longer_step = 16;
 
 /// Finds points of one shape near one ray.
@@ -45,9 +45,9 @@ class Finder {
     return support_(n) - near_.centre;
   }
 
-  /// Casts the ray from lambda on: finds its first point in the shape, spanned by support points,
-  /// and the last plane that clipped the ray. Returns the distance of the spanned point from the
-  /// ray's; infinite for a miss.
+  /// Casts the ray from lambda on. Finds the ray's first point in the shape, as a point spanned by
+  /// support points, and the last plane that clipped the ray. Returns the distance between the
+  /// ray's point and the spanned point; infinite for a miss.
   double enter(Vec3<double> n, double& lambda) {
     Vec3<double> x = near_.at(lambda);
     SpannedPoint spanned(x.cast<Long>());
@@ -76,9 +76,9 @@ class Finder {
     return spanned.off();
   }
 
-  /// Finds the points of the shape and of the ray's part from a to b that are nearest to each
-  /// other. The shape's point is spanned by support points. Returns their distance; `separating` is
-  /// the normal of the plane between them.
+  /// Finds the nearest points of the shape and of the ray's part from a to b. Support points span
+  /// the shape's point. Returns the distance of the two points; `separating` is the normal of a
+  /// plane between them.
   double nearest(double a, double b, Vec3<double> n, Vec3<double>& separating) {
     SpannedPoint spanned(Vec3<Long>::Zero());
     double widest = -std::numeric_limits<double>::infinity();
@@ -100,11 +100,12 @@ class Finder {
     return spanned.off();
   }
 
-  /// Finds the point of the shape near x(lambda), where its normal is about n, among triangles of
-  /// support points in directions tilted a little from n. On a face with rounding around it, or a
-  /// patch of curvature radius rho, tilts by delta give points rho * delta around the hit point and
-  /// only rho * delta^2 under it. Returns the distance of the best point from x(lambda). In long
-  /// double, since the precision of a point between a sliver's corners depends on its thinness.
+  /// Finds a point of the shape near x(lambda), where the normal is about n, among triangles of
+  /// support points in directions tilted slightly from n. On a face with rounded edges, or a patch
+  /// of curvature radius rho, tilts by delta give points at rho * delta around the hit point, and
+  /// only rho * delta^2 below it. Returns the distance of the best point from x(lambda). Uses long
+  /// double, since a point between a sliver's corners loses digits in proportion to the sliver's
+  /// thinness.
   double refine(double lambda, const Vec3<double>& n) {
     const Vec3<Long> x = near_.s.cast<Long>() + Long(lambda) * near_.r.cast<Long>();
     std::vector<Seen> seen;
@@ -120,11 +121,13 @@ class Finder {
     see(n);
     for (const double delta : tilts)
       for (int i = 0; i < tilt_directions; ++i) see(n + delta * around(n, i));
-    // Finds the nearest of all triangles; if it is not near enough, adds support points there.
+    // Finds the nearest triangle; if this is not near enough, adds support points near the
+    // triangle.
     ClosestPoint<Long> best;
     Long best_squared = std::numeric_limits<Long>::infinity();
     std::array<std::size_t, 3> corners{};
-    // A triangle can be nearer than the best only if a corner lies before the plane through it.
+    // A triangle can be nearer than the best point only if a corner lies before the plane through
+    // the best point.
     const auto is_before = [&](std::size_t i) { return seen[i].y.dot(best.v) < best_squared; };
     const auto try_triangle = [&](std::size_t i, std::size_t j, std::size_t k) {
       if (!is_before(k) && !is_before(j) && !is_before(i)) return;
@@ -147,11 +150,12 @@ class Finder {
     const auto is_near_enough = [&] {
       return std::sqrt(best_squared) <= Long(tolerance::proof_on_the_spot * rounding_);
     };
-    // Searches from n, and from the direction of x, which is one of the normals at most rims.
+    // Searches from n, and from the direction of x, which is one of the normals at most edges.
     for (const Vec3<double>& from : {n, unit<double>(x.cast<double>())})
       if (!is_near_enough() && !from.isZero(0) && see(towards(x, from))) try_with_last();
     for (int round = 0; round < refinements && !is_near_enough(); ++round) {
-      // Searches beyond the triangle's side, with n tilted towards it by small and large angles.
+      // Searches beyond the triangle's side, with n tilted towards this side by small and large
+      // angles.
       const Vec3<double> v = (best.v / std::sqrt(best_squared)).cast<double>(),
                          aside = unit<double>(v - n.dot(v) * n);
       bool found = false;
@@ -163,7 +167,7 @@ class Finder {
       const Long before = best_squared;
       for (const double delta : tilts) look(n + delta * aside);
       look(v);
-      // If v is the normal of an edge, its support point may be the other end.
+      // If v is the normal of an edge, the support point may be the edge's other end.
       if (best_squared > before / 4)
         for (int i = 0; i < tilt_directions; ++i) look(v + tilts.front() * around(v, i));
       if (!found) break;
@@ -192,8 +196,8 @@ class Finder {
     return std::cos(angle) * a + std::sin(angle) * b;
   }
 
-  /// Returns a direction whose support point is nearer to x than n's, if the surface bends, as
-  /// along a rim. Uses the secant method, since the point moves with the direction.
+  /// Returns a direction whose support point is nearer to x than that of n, if the surface bends,
+  /// as along a rim. Uses the secant method, since the point moves with the direction.
   Vec3<double> towards(const Vec3<Long>& x, Vec3<double> n) {
     if (!(near_.size > 0)) return n;
     double step = 1 / near_.size;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checks results with the proofs of certificate.h before they are returned: for shapes whose error
-// a solver's own rounding does not bound.
+// Proves results with certificates (certificate.h) before they are returned. For shapes whose
+// errors exceed the rounding that solvers assume.
 #pragma once
 
 #include "core/math/bounds.h"
@@ -13,16 +13,16 @@ namespace minkray {
 struct ProvenCast {
   CastResult<double> answer;
   bool holds = false;
-  /// Holds, and the spanned point (or the plane of a miss) is off by the rounding of points only,
-  /// without the larger tolerance for the middles of slivers.
+  /// True if the proof holds with the tolerance for the rounding of points alone, without the
+  /// larger tolerance for the middles of slivers.
   bool is_sharp = false;
 };
 
-/// Returns the answer with the result of its certificate. A hit moves to the point that its
-/// certificate spans, if there is one. `near` is relative to the ball's centre, the ball must
-/// contain the shape, and the normal is in the shape's frame. The spanned point is searched from
-/// the claimed one on, up to the rounding along the ray beyond it; if `before`, from as far before
-/// it.
+/// Returns the result with the verdict on its certificate. A hit moves to the point that its
+/// certificate spans, if any. `near` is relative to the ball's centre, the ball must contain the
+/// shape, and the normal is in the shape's frame. The search for the spanned point goes from the
+/// claimed point to the rounding along the ray beyond it; if `before`, also as far before the
+/// claimed point.
 ProvenCast proven(const Shape<double>& shape, const Ball<double>& ball,
                   const RayNearBall<double>& near, const CastResult<double>& answer,
                   bool before = false);

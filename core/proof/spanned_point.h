@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A point that support points span: a simplex of the GJK algorithms, in long double, which stores
-// the directions in which its corners were found.
+// A point that support points span: a simplex of the GJK algorithms, in long double. Also stores
+// the directions in which the corners were found.
 #pragma once
 
 #include <algorithm>
@@ -39,8 +39,8 @@ class SpannedPoint {
   /// Vector from the spanned point to x.
   const Vec3<long double>& v() const { return closest_.v; }
 
-  /// Distance of x from the point that the weights span: |v|, except for a tetrahedron that
-  /// contains x, where v is zero and this is the rounding of its volumes.
+  /// Distance of x from the point that the weights span: |v|. For a tetrahedron that contains x, v
+  /// is zero, and the distance is the rounding error of the volumes.
   double off() const {
     Vec3<long double> sum = Vec3<long double>::Zero();
     long double weights = 0;
@@ -53,8 +53,8 @@ class SpannedPoint {
     return static_cast<double>((sum / weights).norm());
   }
 
-  /// For a tetrahedron that contains x: finds the weights with which its corners span x by
-  /// elimination, since ratios of volumes lack the digits that a sliver's volume has lost.
+  /// For a tetrahedron that contains x: computes the corners' weights by elimination, since for
+  /// slivers the ratios of volumes have too few digits.
   void balance() {
     if (!full()) return;
     Mat3<long double> edges;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Casts at a shape's bounds, before the shape itself: first its box, with the original line, then
-// its ball, with the ray relative to a nearby point.
+// Casts at a shape's bounds, before the cast at the shape itself: first at its box, with the
+// original line, then at its ball, with the ray relative to a nearby point.
 #pragma once
 
 #include "core/math/bounds.h"
@@ -18,8 +18,8 @@ struct LineFromCentre {
   W origin_size, direction_size;
 };
 
-/// Lanes whose line meets the bounds are open. In the others, `normal` is the unit normal of a
-/// plane between line and bounds.
+/// A lane is open if its line may meet the bounds. In lanes that miss, `normal` is the unit normal
+/// of a plane between line and bounds.
 template <class W>
 struct BoundsCast {
   Mask<W> open = Mask<W>(false);
@@ -27,10 +27,10 @@ struct BoundsCast {
   Vec3<W> normal = Vec3<W>::Zero();
 };
 
-/// Casts the line at the axis-aligned box with these half extents around the centre, which has a
-/// ball of radius R around it. Uses no division and does not move the ray, so misses are found
-/// quickly. Lines that miss by less than rounding, which grows with the origin's distance, stay
-/// open.
+/// Casts the line at the axis-aligned box with these half extents around the centre; the ball of
+/// radius R around the centre contains the shape. Uses no division and does not move the ray, so
+/// misses are found quickly. Lines that miss by less than rounding stay open; rounding grows with
+/// the origin's distance.
 template <class W>
 [[gnu::always_inline]] inline BoundsCast<W> cast_at_box(const LineFromCentre<W>& line,
                                                         const Vec3<Lane<W>>& half_extents,
@@ -39,7 +39,7 @@ template <class W>
   using std::copysign;
   using T = Lane<W>;
   const Vec3<W>&o = line.origin, &d = line.direction;
-  // Along d x e_k, to either side, the line's offset is o . (d x e_k) = (o x d)_k.
+  // Along d x e_k (or the opposite), the line's offset is o . (d x e_k) = (o x d)_k.
   const Vec3<W> crosswise = o.cross(d);
   const Vec3<W> size(abs(d.x()), abs(d.y()), abs(d.z()));
   const Vec3<W> h = widen<W>(half_extents);
@@ -64,8 +64,8 @@ template <class W>
 }
 
 /// Casts the open lanes of `bounds` at the bounding ball; the ray must be relative to its centre.
-/// Rays that pass by the ball, end before it or begin behind it miss. Lanes are closed if the ray
-/// has no direction or the shape no size.
+/// Rays miss if they pass by the ball, end before the ball or begin behind it. Lanes are closed,
+/// but no miss, if the ray has no direction or the shape has no size.
 template <class W>
 void cast_at_ball(const RayNearBall<W>& near, Lane<W> R, BoundsCast<W>& bounds) {
   using std::max;

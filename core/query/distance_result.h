@@ -13,8 +13,7 @@ namespace minkray {
 enum class DistanceStatus : unsigned char {
   separated,    ///< a plane lies between the two; distance > 0
   overlapping,  ///< a common point was found, to within rounding; distance 0
-  exhausted,    ///< the solver did not converge: the distance lies in [lower, distance], no more is
-                ///< claimed
+  exhausted,    ///< the solver did not converge; the distance lies in [lower, distance]
 };
 
 constexpr std::string_view name_of(DistanceStatus status) {
@@ -33,7 +32,7 @@ constexpr std::string_view name_of(DistanceStatus status) {
 template <class T, int Dim>
 struct DistanceResult {
   DistanceStatus status = DistanceStatus::exhausted;
-  T distance = T(0);  ///< |v|, of the two points: an upper bound, up to rounding
+  T distance = T(0);  ///< |v|, the distance of the two points: an upper bound, up to rounding
   T lower = T(0);     ///< max v.w/|v|, the gap between two parallel planes
   /// The paper's |v|^2 - v.w, an upper bound of |v - v(A - B)|^2, which may be infinite. 0 if
   /// overlapping.
@@ -52,11 +51,11 @@ template <class T, int Dim>
 struct DistanceIteration {
   Vec<T, Dim> v;                        ///< the direction of the support call
   Vec<T, Dim> w;                        ///< the support point, in C
-  Vec<T, Dim> v_next;                   ///< the new simplex' point closest to the origin
+  Vec<T, Dim> v_next;                   ///< the point of the new simplex closest to the origin
   T lower;                              ///< lower bound of the distance so far
   T upper;                              ///< |v_next|, or |v| if the loop ends at w
   std::span<const Vec<T, Dim>> before;  ///< the simplex before w was added
-  std::span<const Vec<T, Dim>> after;   ///< the vertices that carry v_next
+  std::span<const Vec<T, Dim>> after;   ///< the vertices of the smallest face that contains v_next
 };
 
 }  // namespace minkray

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Input and output of closed forms: a line relative to a nearby point and where it enters, with an
-// error bound (docs/forms.md, "Casts with an error bound"). W is double, or a packet of doubles
-// with one line per lane and the same bits as single lines. Or W is a packet of floats, for
-// screening candidates (core/screen/screen.h); it may also have one form per lane.
+// Input and output of closed forms: a line relative to a nearby point, and the point where the line
+// enters, with an error bound (docs/forms.md, "Casts with an error bound"). W is double, or a
+// packet of doubles with one line per lane and the same bits as single lines. Or W is a packet of
+// floats, for screening candidates (core/screen/screen.h); such packets may also have one form per
+// lane.
 #pragma once
 
 #include "core/math/least_to_square.h"
@@ -16,17 +17,18 @@ template <class W>
 struct Line {
   Vec3<W> s, d;
   W dd, inv;  ///< d.d and 1 / d.d
-  /// Bounds the displacement, across the line and along it, of each point with |t| |d| up to the
-  /// form's size: includes the rounding of s and of a form's operations.
+  /// Bounds the error of the line's points with |t| |d| up to the form's size, across the line and
+  /// along it. Includes the rounding of s and of a form's operations.
   W E;
-  /// A square of a component of d below this counts as zero: it moves the line by less than E / 4.
+  /// A component of d counts as zero if its square is below this: it moves the line by less than
+  /// E / 4.
   W parallel;
 
   Line reversed() const { return {s, -d, dd, inv, E, parallel}; }
 };
 
 /// Entry of a line into a form. Sizes of the form are numbers for all lanes, or W with one per
-/// lane. A lane that neither hits nor misses is in doubt.
+/// lane. A lane that neither hits nor misses is undecided.
 template <class W>
 struct Entry {
   Mask<W> hit = Mask<W>(false), miss = Mask<W>(false);
@@ -36,14 +38,15 @@ struct Entry {
   Vec3<W> normal = Vec3<W>::Zero();
 };
 
-/// Smaller components of a direction are replaced by this one, to avoid division by zero: a line so
-/// nearly parallel to a slab leaves it beyond all parameters that matter. Lengths of directions are
-/// at least 1e-19 in double, 1e-4 in float.
+/// Smaller components of a direction are replaced by this number, to avoid division by zero. A line
+/// so nearly parallel to a slab leaves the slab beyond all parameters that matter. Lengths of
+/// directions are at least 1e-19 in double, 1e-4 in float.
 template <class W>
 inline constexpr Lane<W> least_component = least_to_square<Lane<W>>;
 
-/// Returns the normal of a plane parallel to the line that separates the line from all points below
-/// two planes: the line crosses the plane of `entered` inwards after that of `left` outwards.
+/// Returns the normal of a plane that is parallel to the line and separates the line from all
+/// points below two planes. The line leaves the half-space of `left` before it enters that of
+/// `entered`.
 template <class W>
 Vec3<W> between(const Vec3<W>& entered, const Vec3<W>& left, const Vec3<W>& d) {
   const W inwards = entered.dot(d), outwards = left.dot(d);
@@ -56,7 +59,7 @@ Vec3<W> between(const Vec3<W>& entered, const Vec3<W>& left, const Vec3<W>& d) {
 template <class W>
 struct Slab {
   W in, out, e;  ///< parameters of entry and exit, and their error
-  W facing;      ///< 1 or -1: the outward normal where the line leaves
+  W facing;      ///< 1 or -1: z of the outward normal where the line leaves
 
   template <class S>
   Slab(const W& s, const W& d, const S& half, const W& E) {

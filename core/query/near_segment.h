@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The part of a ray that can meet a shape, relative to the shape's middle: proofs are then as
-// precise for far origins and endless rays as for near ones.
+// The part of a ray that can meet a shape, relative to the shape's middle. Proofs that use this
+// part are as precise for far origins and infinite rays as for near ones.
 #pragma once
 
 #include <cmath>
@@ -10,17 +10,17 @@
 
 namespace minkray {
 
-/// The points centre + s + lambda * r with begin <= lambda <= end, in lengths: those between the
-/// shape's two supporting planes perpendicular to the ray. All other points of the ray lie outside
-/// one of the two. Empty if begin > end.
+/// The points centre + s + lambda * r with begin <= lambda <= end, where lambda is a length. These
+/// are the ray's points between the two supporting planes of the shape that are perpendicular to
+/// the ray; no other point of the ray is in the shape. Empty if begin > end.
 struct NearSegment {
   Vec3<double> centre, s, r;
   double begin = 0, end = 0;
-  double first = 0;  ///< parameter of the supporting plane that the ray meets from outside
+  double first = 0;  ///< lambda at the supporting plane that the ray meets from outside
   double t_base = 0, t_shift = 0;  ///< their sum is the ray's parameter at lambda = 0
   bool is_too_far = false;         ///< the origin is too far away: the segment is inaccurate
   double speed = 0;                ///< length of the ray's direction
-  double size = 0;  ///< magnitude of the largest coordinates: the middle's distance + radius
+  double size = 0;  ///< magnitude of the largest coordinates: distance of the middle + radius
 
   Vec3<double> at(double lambda) const { return s + lambda * r; }
   double lambda_of(double base, double offset) const {
@@ -48,8 +48,8 @@ NearSegment near_segment(const Support& support, const Ray<double>& ray) {
     near.s = ray.origin - near.centre;
     return near;
   }
-  // Moves in two steps, in long double: fma rounds once, relative to its result, and the first step
-  // leaves a rest due to the rounding of its parameter.
+  // Moves in two steps, in long double. fma rounds once, relative to its result; the second step
+  // removes the error left by the rounded parameter of the first.
   using Long = long double;
   const Vec3<Long> centre = near.centre.cast<Long>();
   Vec3<Long> s = ray.origin.cast<Long>();
@@ -65,7 +65,7 @@ NearSegment near_segment(const Support& support, const Ray<double>& ray) {
   near.t_shift = parameter();
   move(near.t_shift);
   near.s = (s - centre).cast<double>();
-  // At this many times the distance, rounding of long double equals that of double at the distance.
+  // Ratio of distances at which long double rounds as coarsely as double.
   const double most = std::numeric_limits<double>::epsilon() / std::numeric_limits<Long>::epsilon();
   near.is_too_far = !(step <= most * (near.size + near.s.norm()));
   const double pad = 8 * std::numeric_limits<double>::epsilon() * near.size;

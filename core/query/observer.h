@@ -11,7 +11,7 @@ namespace minkray {
 /// One iteration, in the paper's letters. Positions are relative to the centre of the shape's ball.
 template <class T>
 struct CastIteration {
-  T lambda;                          ///< lower bound of the hit, a length from the closest approach
+  T lambda;                          ///< lower bound of the hit: a length from the closest approach
   Vec3<T> x;                         ///< point of the ray at lambda
   Vec3<T> v;                         ///< the direction of the support call
   Vec3<T> p;                         ///< the support point

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Final step of every cast, whichever stage gave the result: for a single ray, or for a packet of
-// rays in lanes. Results are CastResult, Filtered or CastLanes.
+// Final step of every cast, for the result of any stage: for a single ray, or for a packet of rays
+// in lanes. Results are CastResult, Filtered or CastLanes.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace minkray {
 
-/// Limits t to the ray, if rounding moved it before the ray's beginning or beyond its end.
+/// Limits t to the ray, if rounding moved t before the ray's beginning or beyond its end.
 template <class W, class Answer>
 [[gnu::always_inline]] inline void keep_on_ray(const Ray<W>& ray, Answer& answer) {
   using std::abs;
@@ -28,7 +28,7 @@ template <class W, class Answer>
 }
 
 /// False in lanes where lengths in the shape's own frame overflowed or their squares underflowed.
-/// The normal must have unit length or be zero.
+/// `normal` must have unit length or be zero.
 template <class W, class Answer>
 [[gnu::always_inline]] inline Mask<W> has_numbers(const Answer& answer, const Vec3<W>& normal) {
   using T = Lane<W>;

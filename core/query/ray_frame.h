@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Frames in which the ray runs down the z axis, from +z to -z, and two-dimensional geometry of
-// edges and triangles seen along it.
+// Frames in which the ray runs along the z axis from +z to -z, and two-dimensional geometry of
+// edges and triangles projected along the ray.
 #pragma once
 
 #include "core/math/vec.h"
@@ -31,8 +31,8 @@ W cross_2d(const Vec3<W>& a, const Vec3<W>& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Upper unit normal of the plane through three points, computed from the shorter edges, whose
-/// rounding is least; zero if the points are collinear.
+/// Unit normal, on the side of +z, of the plane through three points; zero if the points are
+/// collinear. Uses the shorter edges, since these have the least rounding.
 template <class W>
 Vec3<W> upper_normal(const Vec3<W>& a, const Vec3<W>& b, const Vec3<W>& c) {
   const Vec3<W> ab = b - a, ac = c - a, bc = c - b;

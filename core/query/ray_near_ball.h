@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A ray relative to a shape's centre. Its parameter is split into a part that leads to the centre
-// and a part that is counted from there, so that precision does not depend on the distance of the
-// ray's origin.
+// A ray relative to a shape's centre. The ray's parameter is the sum of one part up to the point
+// closest to the centre, and a second part from there on. Precision then does not depend on the
+// distance of the ray's origin.
 #pragma once
 
 #include "core/math/bounds.h"
@@ -11,8 +11,9 @@
 
 namespace minkray {
 
-/// The points centre + s + lambda * r, lambda_min <= lambda <= lambda_max: lambda is a length, r
-/// of unit length (or zero, for a ray without direction), s the ray's closest approach to centre.
+/// The points centre + s + lambda * r with lambda_min <= lambda <= lambda_max. lambda is a length,
+/// r has unit length (or is zero for a ray without direction), and centre + s is the ray's point
+/// closest to the centre.
 template <class W>
 struct RayNearBall {
   Vec3<W> s;
@@ -22,20 +23,21 @@ struct RayNearBall {
   W t_base;      ///< the ray's own parameter at s is t_base + t_shift
   W t_shift;
   W t_per_length;
-  /// Bounds the displacement of the ray's points near the shape, in addition to the rounding of the
-  /// shape's own points: the uncertainty of the shape's place and map.
+  /// Bounds the error of the ray's points near the shape that is due to the uncertainty of the
+  /// shape's pose and map. The rounding of the shape's own points is not included.
   W loss = W(0);
 
   W t_offset(W lambda) const { return t_shift + lambda * t_per_length; }
-  /// Rounding error of an offset: that of its parts, of their sum, and of the length.
+  /// Rounding error of an offset: the sum of the errors of its parts, of their sum, and of the
+  /// length.
   W offset_rounding(W offset) const {
     using std::abs;
     return (abs(t_shift) + abs(offset)) * W(tolerance::offset_rounding<Lane<W>>);
   }
 
-  /// True if s lost digits due to the distance of the ray's origin, relative to a shape of radius
-  /// R: rounding of the first step's parameter grows with that distance, and the rest must be
-  /// small.
+  /// True if s lost digits, relative to a shape of radius R, since the ray's origin is far away.
+  /// The rounding of the first step's parameter grows with the distance of the origin, and the
+  /// second step must be small.
   Mask<W> is_from_afar(Lane<W> R) const {
     using std::abs;
     return (abs(lambda_min) > W(tolerance::far_origin<Lane<W>> * R)) & (W(R) > W(0));
@@ -46,16 +48,15 @@ struct RayNearBall {
     return {s, -r, -lambda_max, -lambda_min, t_base, t_shift, -t_per_length, loss};
   }
 
-  /// Returns the ray under a linear map that takes the old centre to the new one, with the same
-  /// parameters.
+  /// Maps the ray by a linear map that takes the old centre to the new one. Keeps the parameters.
   RayNearBall mapped(const Mat3<Lane<W>>& linear) const { return mapped_by(linear); }
   /// Same, with one map per lane.
   RayNearBall mapped(const Mat3<W>& linear) const requires(LaneOf<W>::count > 1) {
     return mapped_by(linear);
   }
 
-  /// Same as `mapped`, and adds the loss that one rounding of the map's numbers causes at a ball of
-  /// radius R around the new centre.
+  /// Same as `mapped`, and adds to `loss` the error that one rounding of the map's numbers causes
+  /// at a ball of radius R around the new centre.
   RayNearBall mapped_with_loss(const Mat3<Lane<W>>& linear, Lane<W> R) const {
     using std::abs;
     W length, correction;
@@ -112,8 +113,9 @@ template <class W, class C>
   return way;
 }
 
-/// Takes one centre for all lanes, or one per lane. Relative to a two-fold centre, the ray has all
-/// digits, wherever the centre is; otherwise it has the digits of points near the centre.
+/// Takes one centre for all lanes, or one per lane. If the centre is two-fold (has twice the
+/// digits), the ray has all digits relative to the centre. Otherwise it has only those of points
+/// near the centre.
 template <class W, class Centre>
 [[gnu::always_inline]] inline RayNearBall<W> ray_near_here(const Centre& centre_of_ball,
                                                            const Ray<W>& ray) {
@@ -123,8 +125,8 @@ template <class W, class Centre>
   using std::sqrt;
   using T = Lane<W>;
 
-  // Powers of two keep the scaled direction exact, and its square in range; subnormal directions
-  // need two of them, since their numbers have no leading power.
+  // Powers of two keep the scaled direction exact, and its square in range. Subnormal directions
+  // need two factors.
   constexpr T up = std::is_same_v<T, float> ? T(0x1p100) : T(0x1p900);
   const W longest =
       max(abs(ray.direction.x()), max(abs(ray.direction.y()), abs(ray.direction.z())));
@@ -160,15 +162,15 @@ template <class W, class Centre>
   near.t_shift = more_steps * second * first;
   near.t_per_length = second * per_length * first;
   near.lambda_min = -steps * length - more_steps * length;
-  // Relative to s, so that the end keeps its digits if it is near the shape.
+  // Relative to s, so that an end near the shape keeps its digits.
   const W left = ray.t_max * (size * (W(1) / first)) - steps - more_steps;
   near.lambda_max = select(has_direction, W(left * length), W(0));
   return near;
 }
 
 #if defined(__x86_64__)
-/// Uses the instruction for fma if the machine has it; otherwise fma is a function, called six
-/// times. Compiled in one place, so that other flags do not change bits.
+/// Uses the fma instruction if the machine has one; otherwise calls a function for each of six fma.
+/// Compiled in one file only, so that other flags do not change bits.
 RayNearBall<float> ray_near_with_fma(const Vec3<float>& centre, const Ray<float>& ray);
 RayNearBall<double> ray_near_with_fma(const Vec3<double>& centre, const Ray<double>& ray);
 RayNearBall<float> ray_near_with_fma(const TwoFoldVec3<float>& centre, const Ray<float>& ray);
@@ -177,10 +179,10 @@ RayNearBall<double> ray_near_with_fma(const TwoFoldVec3<double>& centre, const R
 
 }  // namespace detail
 
-/// Moves the ray to its closest approach to `centre`, which is a Vec3 or a TwoFoldVec3 of lanes.
-/// Takes two steps, since rounding of the first one's parameter grows with the origin's distance. s
-/// is only rounded relative to the centre (unless that is two-fold) and the shape's size: fma
-/// rounds once, and steps are along the direction as given, not along a rounded unit vector.
+/// Moves the ray to its point closest to `centre`, which is a Vec3 or a TwoFoldVec3 of lanes. Takes
+/// two steps, since the rounding of the first step's parameter grows with the origin's distance. s
+/// is rounded only relative to the centre (unless the centre is two-fold) and to the shape's size:
+/// fma rounds once, and steps are along the direction as given, not along a rounded unit vector.
 template <class W, class Centre>
 requires(std::is_same_v<Centre, Vec3<Lane<W>>> ||
          std::is_same_v<Centre, TwoFoldVec3<Lane<W>>>) RayNearBall<W> ray_near(const Centre& centre,
@@ -199,7 +201,7 @@ requires(LaneOf<W>::count > 1) RayNearBall<W> ray_near(const Vec3<W>& centre, co
 }
 
 /// Moves one ray whose origin is further away than far_origin, with more digits. Beyond
-/// farthest_origin, these do not suffice either.
+/// farthest_origin, even these digits do not suffice.
 template <class T>
 RayNearBall<T> ray_near_from_afar(const std::type_identity_t<TwoFoldVec3<T>>& centre,
                                   const Ray<T>& ray) {

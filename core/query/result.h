@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Result of a cast: an honest status, the hit parameter, the normal, and the cost.
+// Result of a cast: status, hit parameter, normal and cost.
 #pragma once
 
 #include <string_view>
@@ -31,10 +31,10 @@ constexpr std::string_view name_of(Status status) {
 
 /// Stage of a cast that gave the result (docs/rays.md).
 enum class Path : unsigned char {
-  filter,  ///< a closed form, whose error bound is its proof
-  model,   ///< bounds, or a model of the shape between its own planes
-  gjk,     ///< the GJK ray cast, by the support mapping alone
-  finer,   ///< cast again with more digits, and proven
+  filter,  ///< a closed form with an error bound
+  model,   ///< bounding volumes, or a local model of the shape, confirmed by supporting planes
+  gjk,     ///< the GJK ray cast, which uses only the support mapping
+  finer,   ///< a second cast with more digits, and a proof
 };
 
 inline constexpr std::size_t path_count = 4;
@@ -59,17 +59,17 @@ struct CastResult {
   Status status = Status::exhausted;
   Path path = Path::model;
 
-  /// The hit parameter is t_base + t_offset. The two are stored separately because their sum, for a
-  /// far origin, loses the digits that locate the hit on the shape: t_base is the ray's closest
-  /// approach to the shape's centre, t_offset is counted from there.
+  /// The hit parameter is t_base + t_offset: t_base is that of the ray's closest approach to the
+  /// shape's centre, and t_offset is relative to t_base. The two are stored separately since, for a
+  /// far origin, their rounded sum no longer locates the hit on the shape.
   T t_base = T(0);
   T t_offset = T(0);
 
-  /// The hit parameter lies in t_base + [offset_lo, offset_hi], for the shape at its prepared
-  /// place. On the path `filter` the interval is the closed form's error bound. Otherwise the lower
-  /// end comes from a supporting plane, the upper end from support points that the ray passes
-  /// between; both include rounding. The upper end is infinite if there are no such points, such as
-  /// at an edge that the ray passes within rounding, and for solvers that are requested by name.
+  /// The hit parameter lies in t_base + [offset_lo, offset_hi], for the shape at its prepared pose.
+  /// On the path `filter` the interval is the closed form's error bound. Otherwise the lower end
+  /// comes from a supporting plane, and the upper end from support points that the ray passes
+  /// between; both include rounding. The upper end is infinite if there are no such points, for
+  /// example if the ray passes an edge within rounding, and for solvers that are requested by name.
   T offset_lo = T(0);
   T offset_hi = std::numeric_limits<T>::infinity();
 
@@ -78,7 +78,7 @@ struct CastResult {
   Vec3<T> normal = Vec3<T>::Zero();
 
   int iterations = 0;
-  int supports = 0;  ///< support points of the search, without those of the upper bound
+  int supports = 0;  ///< support points of the search, not counting those for the upper end
 
   T t() const { return t_base + t_offset; }
   bool found() const { return status == Status::hit || status == Status::inside; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Closed forms in float lanes, for kernels that screen. Everything here has internal linkage
-// (core/math/wide.h).
+// Closed forms in float lanes, for screening kernels. All functions have internal linkage
+// (core/math/wide.h explains why).
 #pragma once
 
 #include "core/exact/box.h"
@@ -82,9 +82,8 @@ struct FormInLanes {
 static_assert(offsetof(ScreenForm, slope) == 16 && offsetof(ScreenForm, scale) == 32 &&
               offsetof(ScreenForm, offset) == 48 && sizeof(ScreenForm) == 64);
 
-/// Tests lines in lanes against all planes of one polytope: four numbers bound entry and exit. E
-/// includes the rounding of planes to float: normal, offset and sums are rounded by less than 2^-21
-/// of the size of near positions.
+/// Tests lines in lanes against all planes of one polytope. E includes the rounding of planes to
+/// float: the rounding of normal, offset and sums is less than 2^-21 of the size of near positions.
 [[gnu::always_inline]] inline exact::Entry<W> enter_planes_alike(const FormInLanes& form,
                                                                  const exact::Line<W>& line,
                                                                  const Mask<W>& open) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pose of an instance in few bytes, for kernels: the leading digits, in one cache line, suffice for
-// nearly all queries; the trailing digits make the map exact.
+// Compact pose of an instance, for kernels. The leading digits fit in one cache line and suffice
+// for nearly all queries; the trailing digits make the map exact.
 #pragma once
 
 #include <bit>
@@ -28,7 +28,7 @@ struct TrailingDigits {
 };
 
 /// Splits a number into a float and a difference in units in the last place. False if the number is
-/// beyond the range of float or subnormal in float.
+/// outside the range of float or subnormal in float.
 inline bool split(double x, float& leading, std::int32_t& trailing) {
   leading = static_cast<float>(x);
   const float size = std::abs(leading);

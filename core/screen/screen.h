@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Screens eight pairs of a ray and a posed shape at once, before any cast: proves a miss, or bounds
-// the hit by two parameters. Uses the closed forms of casts in float lanes, with bounds for float
-// (docs/forms.md, "Casts with an error bound"). Each lane has its own sizes, so that shapes of one
-// kind are screened together whatever their sizes.
+// the hit's parameter from both sides. Uses the casts' closed forms in float lanes, with error
+// bounds for float (docs/forms.md, "Casts with an error bound"). Each lane has its own sizes, so
+// shapes of one kind but different sizes are screened together.
 #pragma once
 
 #include <array>
@@ -22,8 +22,8 @@ inline constexpr int screen_lanes = 8;
 struct alignas(64) ScreenForm {
   std::array<float, 4> sizes = {};
   float slope = 0, sine = 0, R = 0;
-  /// Least radius of curvature. The bounds require errors of positions to be small relative to it
-  /// and to R.
+  /// Least radius of curvature. The bounds require that errors of positions are small relative to
+  /// this and to R.
   float least = 0;
   std::array<float, 3> scale = {1, 1, 1};
   /// Magnitude of positions near the form, in the form's frame.
@@ -32,12 +32,12 @@ struct alignas(64) ScreenForm {
   float up = 1;  ///< -1: upside down
 };
 
-/// A definition for screening in lanes: its form or, if lanes do not support the form, a box around
-/// it.
+/// Screening data of a definition: its form or, if lanes do not support the form, a box around the
+/// shape.
 struct Screen {
   ScreenForm form;
   FormKind kind = FormKind::none;  ///< none: lanes cannot screen it
-  bool is_whole = false;           ///< the form is that of the shape, not a box around it
+  bool is_whole = false;           ///< the form equals the shape; false: a box around the shape
   /// Five floats per plane of a polytope: normal, offset, depth.
   std::shared_ptr<const std::vector<float>> planes = {};
 };
@@ -45,17 +45,17 @@ struct Screen {
 /// Number of kinds of forms that lanes support.
 inline constexpr std::size_t form_kinds = static_cast<std::size_t>(FormKind::polytope) + 1;
 
-/// Makes the screen of a definition. `centre` is that of the inner ball, relative to the origin of
-/// the places' frame.
+/// Makes the screen of a definition. `centre` is that of the inner ball, in the frame to which
+/// InstancePlace maps.
 Screen screen_of(const ShapeDefinition<double>& definition, const Vec3<double>& centre);
 
-/// Bounds of the hit's parameter in each lane. `first` is infinite if the ray surely misses,
-/// whatever its t_max; `last` is infinite if the ray is not sure to hit from outside.
+/// Bounds of the hit's parameter in each lane. `first` is infinite if the ray certainly misses, for
+/// any t_max; `last` is infinite unless the ray certainly hits from outside.
 struct alignas(32) Screened {
   std::array<float, screen_lanes> first, last;
 };
 
-/// Rays and places; pairs refer to them by index.
+/// Rays and instances' poses; pairs refer to them by index.
 struct ScreenList {
   const char* rays;    ///< Ray<double>
   std::size_t stride;  ///< distance between rays in bytes
@@ -64,7 +64,7 @@ struct ScreenList {
   const float* limits;    ///< by ray: hits beyond are ignored
 };
 
-/// Bits of lanes that may be hit up to their limit, and of those that surely are.
+/// One bit per lane: lanes that may hit up to their limit, and lanes that certainly do.
 struct ScreenBits {
   std::uint32_t open, sure;
 };

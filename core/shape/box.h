@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A box around the origin with its faces along the coordinate planes; an extent of zero makes it
-// flat.
+// A box around the origin with faces parallel to the coordinate planes; flat if an extent is zero.
 #pragma once
 
 #include "core/math/vec.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A shape given by the calling program as a function, its support mapping. Files cannot contain
-// such shapes.
+// A shape whose support mapping is a function of the calling program. Files cannot contain such
+// shapes.
 #pragma once
 
 #include <array>
@@ -19,15 +19,15 @@ using Coordinates = std::array<double, 3>;
 /// A matrix of 3 x 3, row by row.
 using Derivative = std::array<double, 9>;
 
-/// A support mapping supplied by the caller. Any number of threads call it at once; equal
+/// A support mapping supplied by the caller. Any number of threads call it at once. Equal
 /// directions must give equal points. Points must be finite even after an error: the implementation
-/// stores the error and reports it when the query is done.
+/// stores the error and reports it after the query.
 class SupportSource {
  public:
   virtual ~SupportSource();
 
-  /// Computes the points furthest along `count` directions (at most `most`), which may have any
-  /// length; any point for a direction of zero.
+  /// Computes the points furthest along `count` directions of any length (at most `most`
+  /// directions). A direction of zero gets any point.
   void ask(std::size_t count, Coordinates* directions, Coordinates* points) const;
 
   /// True if the source provides derivatives of its points with respect to the direction, and a
@@ -41,7 +41,7 @@ class SupportSource {
     Derivative factor = {};  ///< factor of the ellipsoid around the middle
   };
   /// Returns the jet, computed from the point and its symmetric derivative. Derivatives only guide
-  /// casts: wrong ones only cost time.
+  /// casts, so wrong derivatives only cost time.
   JetNumbers jet_along(Coordinates direction) const;
 
   static constexpr std::size_t most = 16;
@@ -83,7 +83,7 @@ struct Custom {
     return support_where(Mask<W>(true), n);
   }
 
-  /// Support points in the lanes that are wanted; others get the point of the first wanted lane.
+  /// Support points in the wanted lanes; other lanes get the point of the first wanted lane.
   template <class W>
   Vec3<W> support_where(const Mask<W>& wanted, const Vec3<W>& n) const {
     if constexpr (std::floating_point<W>) {
@@ -112,8 +112,8 @@ struct Custom {
     }
   }
 
-  /// Without derivatives, a point: casts find the surface point by point. With derivatives, the
-  /// ellipsoid around the middle that has the same derivative.
+  /// With derivatives: the ellipsoid around the middle that has the same derivative. Without: a
+  /// single point.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     if (!source->has_jets()) return PointJet<W>{support(n)};

@@ -67,7 +67,7 @@ struct CutCylinder {
     return {p.x(), p.y(), select(rims.is_upper, height(1, upper_slope), height(0, lower_slope))};
   }
 
-  /// Jet of the ellipse in which one of the planes cuts the cylinder.
+  /// Jet of the ellipse in which the given plane cuts the cylinder.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     const Mask<W> is_upper = Rims<W>(*this, n).is_upper;
@@ -81,8 +81,8 @@ struct CutCylinder {
   }
 
  private:
-  /// Points of the unit disk below the point of each plane's ellipse that is furthest along n; the
-  /// mask is set if the upper ellipse reaches further.
+  /// Finds the point of each plane's ellipse that is furthest along n. Returns the two points
+  /// projected to the unit disk; the mask is set if the upper ellipse reaches further.
   template <class W>
   struct Rims {
     Vec3<W> lower, upper;

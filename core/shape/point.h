@@ -20,7 +20,7 @@ struct Point {
         Field{"position", &Point::position, Unit::length, Range::any, "where it is", true}};
   }
 
-  /// A ball of radius 0, which becomes a ball if rounded.
+  /// A ball of radius 0; rounding the point gives a ball.
   ExactForm exact_form() const {
     const Vec3<T>& p = position;
     return {FormKind::ball, {0}, {double(p[0]), double(p[1]), double(p[2])}};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The Minkowski sum of a shape with a ball: the shape, its edges and corners rounded outwards.
+// The Minkowski sum of a shape with a ball: the shape grown by a radius, with rounded edges.
 #pragma once
 
 #include "core/math/vec.h"

@@ -70,7 +70,7 @@ struct Shape {
   template <class S>
   requires detail::is_alternative<S, ShapeVariant<T>> Shape(S shape) : kind(std::move(shape)) {}
 
-  // Compiled once, in shape.cpp: each of these dispatches on every kind of shape.
+  // Compiled once, in shape.cpp, since each of these dispatches on every kind of shape.
   Shape(const Shape& other);
   Shape(Shape&& other) noexcept;
   Shape& operator=(const Shape& other);

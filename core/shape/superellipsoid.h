@@ -51,7 +51,7 @@ struct Superellipsoid {
   /// With u = m/|m|_q and g_i = sign(n_i) u_i^(q-1), the osculating ellipsoid has the shape matrix
   /// diag(a) ((q-1) diag(u^(q-2)) - (q-2) g g^T) diag(a). On the coordinate planes the radius of
   /// curvature is infinite for p > 2, so g is kept above a small number there. For p < 2 the radius
-  /// is 0 and must stay 0, since a model with a larger radius agrees with planes that cut it off.
+  /// is 0 and must stay 0: a model with a larger radius would extend beyond the shape.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     using std::abs;
@@ -73,13 +73,13 @@ struct Superellipsoid {
   }
 
   /// The gauge |x/a|_p of points x(lambda) = (u + lambda v) a on a line: the least factor by which
-  /// the shape must grow to reach them; 1 on the surface, and convex.
+  /// the shape must be scaled to contain the point. The gauge is convex, and 1 on the surface.
   template <class W>
   struct Gauge {
     W value;
-    /// Gradient with respect to x/a, which has length 1 in the dual norm, so that gradient/a is the
-    /// normal of the supporting plane where a line from the middle to x meets the surface, and the
-    /// gauge of x is never less than gradient.(x/a).
+    /// Gradient with respect to x/a, with length 1 in the dual norm. gradient/a is the normal of
+    /// the supporting plane at the point where the line from the middle to x meets the surface. The
+    /// gauge of any x is at least gradient.(x/a).
     Vec3<W> gradient;
     W slope;      ///< derivative by lambda
     W curvature;  ///< half of the second derivative of the gauge's square

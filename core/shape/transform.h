@@ -36,12 +36,12 @@ struct Transform {
     return {map(inner.c), mapped_factor<W>(inner.F), inner.exact, map(inner.s)};
   }
 
-  /// Maps an ellipsoid's factor F. A ball stays a ball if the map scales all lengths alike.
+  /// Maps an ellipsoid's factor F. A ball stays a ball if the map scales all lengths equally.
   template <class W>
   Mat3<W> mapped_factor(const Mat3<W>& F) const {
     Mat3<W> mapped = widen<W, T>(map.affine().linear) * F;
     if (map.similarity() > T(0)) {
-      // Decides for each lane, so that no lane depends on the others.
+      // Decided for each lane, so that no lane depends on others.
       const Mat3<W> ball = Mat3<W>::Identity() * F(0, 0);
       const Mask<W> is_ball = (F - ball).cwiseAbs().sum() == W(0);
       const Mat3<W> scaled = ball * W(map.similarity());

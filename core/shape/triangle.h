@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A triangle, solid and without thickness; its corners may be collinear or coincide.
+// A flat triangle with its interior; the corners may be collinear or coincide.
 #pragma once
 
 #include <array>

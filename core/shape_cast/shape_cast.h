@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Continuous collision detection of two shapes that move without turning: van den Bergen (2004),
-// sections 1 and 4. B, moving by t * direction relative to A, meets A at the least t for which t *
-// direction lies in the configuration space obstacle A - B (both at t = 0): a ray cast, which any
-// of the solvers does. The obstacle is taken about the two shapes' centres, so that precision does
-// not depend on their places in the world.
+// Continuous collision detection of two shapes that move without turning (van den Bergen, 2004,
+// sections 1 and 4). B moves by t * direction relative to A, and meets A at the least t for which
+// t * direction lies in the configuration space obstacle A - B (both at t = 0). This is a ray cast,
+// for any solver. The obstacle is relative to the two shapes' centres, so precision does not depend
+// on their positions in the world.
 #pragma once
 
 #include "core/cast/cast.h"
@@ -11,11 +11,11 @@
 
 namespace minkray {
 
-/// The obstacle A - B of two shapes, ready for casts with any placement of their centres.
+/// The obstacle A - B of two shapes, prepared for casts with any positions of their centres.
 template <class T>
 class PreparedPair {
  public:
-  /// A is the obstacle, B the shape that moves; their poses at t = 0.
+  /// A is the obstacle and B the moving shape, with their poses at t = 0.
   PreparedPair(const CentredShape<T>& a, const CentredShape<T>& b)
       : a_(a),
         b_(b),
@@ -26,7 +26,7 @@ class PreparedPair {
   const CentredShape<T>& b() const { return b_; }
   const PreparedShape<T>& obstacle() const { return obstacle_; }
 
-  /// Moves the shapes; their orientation stays.
+  /// Moves the shapes without changing their orientations.
   void place(const Vec3<T>& centre_a, const Vec3<T>& centre_b) {
     a_.centre = centre_a;
     b_.centre = centre_b;
@@ -39,24 +39,26 @@ class PreparedPair {
 
 template <class T>
 struct ShapeCastResult {
-  /// Status, time of impact with its bounds, cost. The normal is A's, outward, at the contact, in
-  /// the world (inside: zero; miss: the normal of a plane that keeps B off A all the time).
+  /// Status, time of impact with its bounds, and cost. Hit: the normal is A's outward normal at the
+  /// contact, in the world. Miss: the normal of a plane that separates B from A at all times.
+  /// Inside: zero.
   CastResult<T> cast;
-  /// Hit or inside: the contact point on A, and on B at the time of impact, in the world. Their
-  /// difference is what rounding left, more where they graze. Inside: a common point at t = 0.
+  /// Hit: the contact points on A, and on B at the time of impact, in the world. The two differ by
+  /// rounding, more for grazing contacts. Inside: a common point at t = 0.
   Vec3<T> point_a = Vec3<T>::Zero();
   Vec3<T> point_b = Vec3<T>::Zero();
 };
 
-/// The first contact with 0 <= t <= t_max. B moves by t * direction, which may be zero or denormal:
-/// then the two meet (status inside) or not (miss). Overlapping or touching at the start: inside.
+/// Finds the first contact with 0 <= t <= t_max. B moves by t * direction. Shapes that overlap or
+/// touch at the start are `inside`. The direction may be zero or subnormal; the result is then
+/// `inside` or a miss.
 template <class T>
 ShapeCastResult<T> cast_shape(const PreparedPair<T>& pair, const Vec3<T>& direction,
                               T t_max = std::numeric_limits<T>::infinity(),
                               const CastOptions<T>& options = {},
                               const CastObserver<T>& observer = {});
 
-/// Both shapes move, each by its velocity, over the times 0 to `duration`.
+/// Same for two shapes that move, each with its velocity, at times from 0 to `duration`.
 template <class T>
 ShapeCastResult<T> cast_shapes(const PreparedPair<T>& pair, const Vec3<T>& velocity_a,
                                const Vec3<T>& velocity_b, T duration,

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-// An affine map in the form that support mappings need: s_{MC+t}(n) = M s_C(M^T n) + t.
+// An affine map for support mappings: s_{MC+t}(n) = M s_C(M^T n) + t.
 #pragma once
 
 #include "core/math/affine.h"
 
 namespace minkray {
 
-/// Spelled as `translate`, `rotate` and `scale`, or as `matrix`; must be invertible.
+/// Files specify the map by `translate`, `rotate` and `scale`, or by `matrix`. Must be invertible.
 template <class T>
 class AffineMap {
  public:
   AffineMap() = default;
-  /// M^T is stored divided by M's largest entry (support mappings ignore a direction's length), so
-  /// that directions stay near unit length however small or large the map's scale is.
+  /// M^T is stored divided by M's largest entry, so that directions stay near unit length for any
+  /// scale of the map. Support mappings ignore a direction's length.
   AffineMap(const Affine<T>& affine)
       : affine_(affine),
         to_inner_(affine.linear.transpose() / affine.linear.cwiseAbs().maxCoeff()),

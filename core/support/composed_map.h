@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Maps of nested shapes, composed with twice the digits: a shape that one map moves far away and
-// the next one moves back is still at the exact place. Includes a bound of the maps' errors.
+// Maps of nested shapes, composed with twice the digits. A shape that one map moves far away, and
+// the next map moves back, keeps its exact position. Includes a bound of the maps' errors.
 #pragma once
 
 #include "core/math/length.h"
@@ -12,10 +12,10 @@ namespace minkray {
 /// largest one of 20,000 random quaternions was 3.9 epsilon (Frobenius norm).
 inline constexpr double rounding_of_turns = 4 * std::numeric_limits<double>::epsilon();
 
-/// Rounding with twice the digits, relative to the summands.
+/// Rounding error of arithmetic with twice the digits, relative to the summands.
 inline constexpr double two_fold_rounding = 0x1p-100;
 
-/// True if each row has at most one nonzero entry: no rotation was rounded.
+/// True if each row has at most one nonzero entry, so no entries of a rotation were rounded.
 inline bool is_along_axes(const Mat3<double>& linear) {
   for (int i = 0; i < 3; ++i)
     if ((linear.row(i).array() != 0).count() > 1) return false;

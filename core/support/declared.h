@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Optional declarations in a shape's header, in addition to its support mapping and jets. Casts at
-// a shape without declarations use only those two: the names of its fields and functions imply
-// nothing.
+// a shape without declarations use only the support mapping and jets; names of fields and functions
+// have no effect.
 #pragma once
 
 #include <concepts>
@@ -11,11 +11,11 @@ namespace minkray {
 struct Declared {
   /// The shape is the box of all points with |x_k| <= half_extents[k].
   bool slabs = false;
-  /// The shape is a polytope, and points.facets() returns its facets, or null.
+  /// The shape is a polytope. `points.facets()` returns its facets, or null.
   bool facets = false;
-  /// The surface is smooth, and gauge_along(u, v, lambda) returns the gauge at points of a line.
+  /// The surface is smooth. `gauge_along(u, v, lambda)` returns the gauge at points of a line.
   bool gauge = false;
-  /// support_where(wanted, n) equals support(n) in wanted lanes, and costs less for the others.
+  /// support_where(wanted, n) equals support(n) in wanted lanes, and costs less if few are wanted.
   bool support_where = false;
   /// The calling program provides the shape; files cannot contain it.
   bool by_program = false;

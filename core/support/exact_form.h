@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Closed form of a shape for casts: the form's name and its numbers. Casts at a shape that declares
-// none use its support mapping and jets only. The names and number of a shape's parameters imply
-// nothing.
+// no form use only its support mapping and jets; names of parameters have no effect.
 #pragma once
 
 #include <array>
 
 namespace minkray {
 
-/// The closed forms, one file each in core/exact, and the meaning of their numbers. All lie around
-/// `middle`, along the axes of the shape's own frame. Lengths are not negative.
+/// The closed forms, one file each in core/exact, and the meaning of their numbers. All forms are
+/// centred at `middle`, along the axes of the shape's own frame. Lengths are not negative.
 enum class FormKind : unsigned char {
   none,
   ball,             ///< radius
@@ -35,7 +34,7 @@ struct ExactForm {
   std::array<double, 3> middle = {};
 };
 
-/// The form's Minkowski sum with a ball; FormKind::none if that has no closed form.
+/// The form's Minkowski sum with a ball; FormKind::none if the sum has no closed form.
 inline ExactForm rounded(const ExactForm& form, double radius) {
   if (radius == 0) return form;
   ExactForm sum = form;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Descriptions of a shape's parameters. Derived from them are reading and writing JSON, error
-// messages that name the parameter, `minkray info --shapes`, the JSON Schema, the conversion
-// between float and double, and the typed tests.
+// Descriptions of a shape's parameters. These generate the JSON reader and writer, error messages
+// that name the parameter, `minkray info --shapes`, the JSON Schema, the conversion between float
+// and double, and the typed tests.
 #pragma once
 
 #include <string_view>
@@ -22,15 +22,15 @@ enum class Range {
   brightness
 };
 
-/// Largest brightness of a light, in the scene's unit. Products of a few such numbers, and sums of
-/// millions of them, are finite in a picture of floats (up to 3.4e38).
+/// Largest brightness of a light, in the scene's unit. Products of a few such numbers, or sums of
+/// millions, are finite in a picture of floats (up to 3.4e38).
 inline constexpr double most_brightness = 1e15;
 
-/// One parameter: the member of shape S that holds it. The member's type determines its form in
-/// JSON: T a number, std::array<T, 2> and Vec3<T> lists of two and three, std::array<Vec3<T>, N> a
-/// list of N points, Nested<T> a shape, ShapeList<T> a list of shapes, PointCloud<T> points or a
-/// mesh file, AffineMap<T> the keys of a pose. An optional parameter keeps its initial value if
-/// left out.
+/// One parameter: a member of shape S. The member's type determines the parameter's JSON: for T a
+/// number, for std::array<T, 2> and Vec3<T> a list of two or three numbers, for std::array<Vec3<T>,
+/// N> a list of N points, for Nested<T> a shape, for ShapeList<T> a list of shapes, for
+/// PointCloud<T> points or a mesh file, for AffineMap<T> the keys of a pose. An omitted optional
+/// parameter keeps its initial value.
 template <class S, class M>
 struct Field {
   using Member = M;
@@ -48,8 +48,8 @@ Field(std::string_view, M S::*, Unit, Range, std::string_view) -> Field<S, M>;
 template <class S, class M>
 Field(std::string_view, M S::*, Unit, Range, std::string_view, bool) -> Field<S, M>;
 
-/// A parameter that does not fit the others of its shape, and its requirement: a text that is
-/// followed by a number. Shapes whose parameters must fit each other have a member misfit().
+/// A parameter that contradicts others of its shape, and its requirement: a text and a number that
+/// follows it. Shapes whose parameters depend on each other have a member function misfit().
 struct Misfit {
   std::string_view parameter;
   std::string_view must_be;

@@ -2,7 +2,7 @@
 // Jets: a shape's support mapping to second order (derived in docs/forms.md). In direction n, a
 // shape is approximated by an ellipsoid with the same support point and curvature. With
 // h(n) = n.s(n), c an interior point, g = s - c and H = ds/dn, its shape matrix around c is
-// A = h H + g g^T. Jets store a factor F, A = F F^T, since A itself loses half of the digits of
+// A = h H + g g^T. Jets store a factor F of A = F F^T, since A would lose half of the digits of
 // flat features.
 #pragma once
 
@@ -12,10 +12,11 @@
 
 namespace minkray {
 
-/// The ellipsoid { c + F b : |b| <= 1 }; columns of F may be zero. `exact` means that the whole
-/// ellipsoid is part of the shape (the same one for all directions in which it touches). Otherwise
-/// it only osculates in the requested direction: then `s` is the shape's support point there, from
-/// which the ellipsoid's may differ (where a radius of curvature is infinite).
+/// The ellipsoid { c + F b : |b| <= 1 }; columns of F may be zero. If `exact`, the entire ellipsoid
+/// is part of the shape, and is the jet for all directions in which it touches the surface.
+/// Otherwise the ellipsoid only osculates in the requested direction, and `s` is the shape's
+/// support point. The ellipsoid's own support point may differ from `s` if a radius of curvature is
+/// infinite.
 template <class W>
 struct Jet {
   Vec3<W> c = Vec3<W>::Zero();
@@ -28,7 +29,7 @@ struct Jet {
     if (!any(exact)) return s;
     return select<W>(exact, Vec3<W>(c + F * unit<W>(F.transpose() * n)), s);
   }
-  /// Support function of the shape along that n, times the length of n.
+  /// Support function h(n) of the shape: n . support(n), for n of any length.
   W support_function(const Vec3<W>& n) const {
     return select(exact, W(n.dot(c) + (F.transpose() * n).norm()), W(n.dot(s)));
   }
@@ -53,7 +54,7 @@ concept JetMapped = requires(const S& shape, const Vec3<T>& n) {
   { shape.jet(n) } -> std::convertible_to<Jet<T>>;
 };
 
-// Common shapes have more specific types of jets, which solvers use.
+// Solvers use the more specific jet types of common shapes.
 
 /// A vertex.
 template <class W>
@@ -70,7 +71,7 @@ struct AxialBallJet {
   operator Jet<W>() const { return {{W(0), W(0), z}, Mat3<W>::Identity() * radius}; }
 };
 
-/// A disk around the z axis; of radius zero, a point on it.
+/// A disk around the z axis; for the radius zero, a point on the axis.
 template <class W>
 struct AxialDiskJet {
   W z;
@@ -106,8 +107,8 @@ Mat3<W> factor(const Mat3<W>& A) {
   return F;
 }
 
-/// A factor of the ellipsoid that agrees, in direction n, with the sum of two ellipsoids around
-/// their common centre in reach, support point and curvature.
+/// Returns a factor of an ellipsoid that approximates the sum of two ellipsoids with a common
+/// centre: both have the same reach, support point and curvature in direction n.
 template <class W>
 Mat3<W> osculating_sum(const Mat3<W>& F_a, const Mat3<W>& F_b, const Vec3<W>& n) {
   const Vec3<W> u_a = F_a.transpose() * n, u_b = F_b.transpose() * n;
@@ -119,8 +120,8 @@ Mat3<W> osculating_sum(const Mat3<W>& F_a, const Mat3<W>& F_b, const Vec3<W>& n)
                    g * g.transpose());
 }
 
-/// Jet of a Minkowski sum. The sum of an exact jet with a point stays exact, as does the sum of two
-/// balls. For two other curved features, the curvatures H are added, and the sum only osculates.
+/// Jet of a Minkowski sum. The sum of an exact jet and a point is exact, and so is the sum of two
+/// balls. For two other curved features, the matrices H are added, and the sum only osculates.
 template <class W>
 Jet<W> add(const Jet<W>& a, const Jet<W>& b, const Vec3<W>& n) {
   using T = Lane<W>;
@@ -135,8 +136,8 @@ Jet<W> add(const Jet<W>& a, const Jet<W>& b, const Vec3<W>& n) {
   if (all(simple)) return joined;
 
   Jet<W> sum{c, osculating_sum<W>(a.F, b.F, n), Mask<W>(false), s};
-  // A flat feature has hardly any curvature along its normal: the whole feature, moved to the
-  // other's support point, lies in the sum and touches its plane.
+  // A flat feature has almost no extent along its normal. The feature, moved to the other feature's
+  // support point, lies in the sum and touches the sum's supporting plane.
   const W h_a = (a.F.transpose() * n).norm(), h_b = (b.F.transpose() * n).norm();
   const W flat = (h_a + h_b) * W(T(1) / T(1024));
   const Mask<W> a_flat = !(h_a > flat), b_flat = !(h_b > flat);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shapes inside shapes: operands of rounding, sums, hulls and maps. Operands are immutable and
-// shared, so that copying a nested shape is cheap.
+// Operands of shapes that are made of shapes: rounding, sums, hulls and maps. Operands are
+// immutable and shared, so copying such a shape is cheap.
 #pragma once
 
 #include <memory>

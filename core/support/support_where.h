@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Support points for some of a packet's lanes: shapes that compute lane by lane skip the others.
+// Support points for some lanes of a packet: shapes that compute lane by lane skip the other lanes.
 #pragma once
 
 #include "core/math/vec.h"

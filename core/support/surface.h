@@ -7,17 +7,17 @@
 namespace minkray {
 
 enum class SurfaceKind : unsigned char {
-  flat,        ///< a polytope: points are its only features
-  translates,  ///< faces and edges between finitely many translates of one ellipsoid
-  ellipsoids,  ///< faces and edges between finitely many ellipsoids
-  smooth,      ///< one curved patch that jets only osculate
-  mixed,       ///< several patches, some of them only osculated by jets
+  flat,        ///< a polytope: all jets are points
+  translates,  ///< the convex hull of finitely many translates of one ellipsoid
+  ellipsoids,  ///< the convex hull of finitely many ellipsoids
+  smooth,      ///< one curved patch; jets only osculate
+  mixed,       ///< several patches; some jets only osculate
 };
 
 inline constexpr int tilted_directions = 27;
 
-/// Directions slightly off those of a cube's faces, edges and corners, which are special for many
-/// shapes.
+/// Directions to a cube's faces, edges and corners, slightly tilted, since the exact directions are
+/// special cases for many shapes.
 template <class T>
 Vec3<T> tilted_direction(int i) {
   const int x = i % 3 - 1, y = i / 3 % 3 - 1, z = i / 9 - 1;

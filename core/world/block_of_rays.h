@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A block of rays in float lanes: made from rays in double, and tested against boxes. Everything
-// has internal linkage: see core/math/wide.h.
+// A block of rays in float lanes: made from rays in double, and tested against boxes. All functions
+// have internal linkage (core/math/wide.h explains why).
 #pragma once
 
 #include "core/bvh/bvh.h"
@@ -15,11 +15,11 @@ namespace {
 constexpr int all_rays = static_cast<int>(rays_of_block);
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Largest difference of directions in a block, in units of the first one's largest component;
-/// wider blocks are not faster.
+/// Largest difference of a ray's direction from the block's middle direction, relative to the
+/// largest component of the latter. Blocks with larger differences save no time.
 constexpr double widest = 0.25;
 
-/// Compared parameters of two planes are rounded five times each; this allows for 16 roundings.
+/// Allows for 16 roundings. The two ray parameters that are compared are rounded five times each.
 constexpr float block_padding = 1 + 8 * std::numeric_limits<float>::epsilon();
 
 struct alignas(32) Block {
@@ -160,7 +160,8 @@ bool make_block(const char* rays, std::size_t stride, std::size_t count, Block& 
   return true;
 }
 
-/// Returns which of a node's boxes any of the rays may meet up to t_max, and writes where.
+/// Returns one bit per box of the node: 1 if any ray may meet the box up to t_max. Writes lower
+/// bounds of the ray parameters at which rays enter the boxes.
 [[gnu::always_inline]] inline std::uint32_t boxes_met(const BvhNode& node, const Block& block,
                                                       float t_max, float* enters) {
   __m256 enter = _mm256_setzero_ps(), leave = _mm256_set1_ps(t_max);

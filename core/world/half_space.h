@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Half-space: all points on one side of a plane. Unbounded, so it has no support mapping, box or
-// solver; rays are cast in closed form.
+// Half-space: all points on one side of a plane. Half-spaces are unbounded, so they have no support
+// mapping, box or solver; rays are cast in closed form.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ template <class T>
 struct HalfSpaceBody {
   Vec3<T> normal = {T(0), T(0), T(1)};  ///< outward, of unit length
   T offset = T(0);
-  /// Bounds of the rounding by a pose: of each entry of the normal, and of the offset.
+  /// Bounds of the rounding errors due to a pose: of each entry of the normal, and of the offset.
   T normal_error = T(0), offset_error = T(0);
 
   /// Maps the half-space by an invertible map.
@@ -40,9 +40,9 @@ struct HalfSpaceBody {
   }
 };
 
-/// Finds where the ray enters: at the surface, or `inside` if it begins below the surface. The
-/// interval includes the rounding of the division. A ray parallel to the plane misses or begins
-/// inside. Exhausted if the height, the slope or the distance along the ray overflows.
+/// Finds where the ray enters the half-space; `inside` if the ray begins below the surface. The
+/// interval of t includes the rounding of the division. A ray parallel to the plane misses or
+/// begins inside. Exhausted if the height, the slope or the distance along the ray overflows.
 template <class T>
 CastResult<T> cast_ray(const HalfSpaceBody<T>& half_space, const Ray<T>& ray) {
   using std::abs, std::isfinite;

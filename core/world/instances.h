@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shapes of a world with their poses. Definitions are stored once, and for each instance only its
-// place, so that a world can have tens of millions.
+// Shapes of a world with their poses. Each definition is stored once, and each instance stores only
+// its pose, so a world can have tens of millions of instances.
 #pragma once
 
 #include <array>
@@ -25,14 +25,14 @@
 
 namespace minkray {
 
-/// Number for no instance: as a result, a miss; as the instance to skip, none is skipped.
+/// Number that means "no instance". As a result: a miss. As the instance to skip: none is skipped.
 inline constexpr std::uint32_t no_instance = std::numeric_limits<std::uint32_t>::max();
 
 /// Kinds of rays, one bit each; the caller defines their meaning.
 using RayKinds = std::uint8_t;
 inline constexpr RayKinds all_ray_kinds = 0xff;
 
-/// An instance takes 64 bytes, and 36 more if its map has more digits than float.
+/// All instances of a world. Each takes 64 bytes, and 36 more if its map does not fit in float.
 class Instances {
  public:
   /// Stores a shape for `add`. Returns its number; equal shapes get the same number.
@@ -69,8 +69,8 @@ class Instances {
     are_boxes_stale_ = true;
   }
 
-  /// Pose of an instance exactly as it was given: for meshes, and for shapes without outer maps
-  /// under a pose that keeps lengths. Nothing for other instances.
+  /// Pose of an instance exactly as given. Only for meshes, and for shapes without outer maps under
+  /// a pose that keeps lengths; nullopt for other instances.
   std::optional<Affine<double>> plain_pose(std::size_t i) const;
 
   /// Shows the i-th instance to rays of these kinds only. Call after all instances are added.
@@ -82,15 +82,15 @@ class Instances {
   const RayKinds* shown_to() const { return shown_to_.empty() ? nullptr : shown_to_.data(); }
 
   /// Moves every instance: the i-th to pose_of(i). With movement_of, the i-th follows
-  /// movement_of(i) while time goes from 0 to 1, and its box contains all of that motion. Several
-  /// threads call the functions at once. Boxes are stale until they are computed again.
+  /// movement_of(i) while time goes from 0 to 1, and its box contains this motion. Several threads
+  /// call the functions at once. Boxes are stale until they are computed again.
   void pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
                 const std::function<Movement<double>(std::size_t)>& movement_of = {});
 
   /// True if any instance moves.
   bool move() const { return !movements_.empty(); }
 
-  /// The ray relative to the i-th instance at that time, in coordinates of time 0.
+  /// Moves a ray back with the i-th instance from `time` to time 0.
   Ray<double> seen_by(std::size_t i, const Ray<double>& ray, double time) const {
     return movements_.empty() ? ray : movements_[i].unmoved(ray, time);
   }
@@ -136,8 +136,8 @@ class Instances {
   /// True if there are half-spaces or meshes.
   bool have_shapeless() const { return !half_spaces_.empty() || !meshes_.empty(); }
 
-  /// Returns an instance with a shape, prepared for casts. Refers to this object, which must
-  /// outlive it. `loss` is the uncertainty of a ray's place, in the inner frame.
+  /// Returns an instance with a shape, prepared for casts. The result refers to this object, which
+  /// must outlive the result. `loss` is the uncertainty of a ray's position, in the inner frame.
   PreparedShape<double> at(std::size_t i, double loss = 0) const {
     const InstancePlace& place = places_[i];
     const InstanceBody& body = bodies_[place.body];
@@ -169,7 +169,7 @@ class Instances {
                                      : origin,
             body.is_turned ? &map : nullptr};
   }
-  /// Same as at(), for a ray returned by seen_by(): includes the rounding of seen_by().
+  /// Same as at(), for a ray returned by seen_by(): `loss` includes the rounding of seen_by().
   PreparedShape<double> at_seen_by(std::size_t i, const Ray<double>& ray) const {
     const double loss = loss_of_seen_by(i, ray);
     return loss == 0 ? at(i) : at(i, loss * to_inner(i).norm());
@@ -184,13 +184,13 @@ class Instances {
 
   // Arrays that kernels read.
   const InstancePlace* places() const { return places_.data(); }
-  /// Null if no map has more digits than float.
+  /// Null if all maps fit in float.
   const TrailingDigits* digits() const { return digits_.empty() ? nullptr : digits_.data(); }
   const std::vector<InstanceBody>& bodies() const { return bodies_; }
   const Screen* screens() const { return screens_.data(); }
 
-  /// Returns the form's kind if all instances with shapes that rays can hit are screened by forms
-  /// of that kind which equal their shapes; otherwise none.
+  /// Returns a form's kind if every shape that rays can hit equals a closed form of this kind,
+  /// which screens it; otherwise FormKind::none.
   FormKind kind_of_all() const;
 
   [[gnu::always_inline]] void prefetch(std::size_t i) const { __builtin_prefetch(&places_[i]); }
@@ -204,8 +204,8 @@ class Instances {
   /// Half the longest side of the instance's box in the world, up to rounding; 0 for a half-space.
   double half_extent(std::size_t i) const;
 
-  /// Moves out the boxes that contain the instances, including rounding; boxes of half-spaces are
-  /// undefined. Call once after each change.
+  /// Moves out the bounding boxes of the instances, which include rounding errors. Boxes of
+  /// half-spaces are undefined. Call once after each change.
   FirstTouchVector<Bounds<float>> take_boxes() { return std::exchange(boxes_, {}); }
 
   /// True if the boxes were not taken and are not stale.
@@ -226,7 +226,7 @@ class Instances {
     std::array<std::uint32_t, 5> bodies;
   };
 
-  /// Digits missing from the origin of an instance that is not plain, and the uncertainty of its
+  /// For an instance that is not plain: digits missing from its origin, and the uncertainty of its
   /// pose.
   struct Rest {
     Vec3<double> centre = Vec3<double>::Zero();
@@ -250,7 +250,8 @@ class Instances {
   Mat3<double> to_inner(std::size_t i) const;
   std::uint32_t number_of(std::shared_ptr<const ShapeDefinition<double>> definition);
   std::uint32_t body_with(std::uint32_t definition, std::size_t which);
-  /// Writes the place except for its body, which `keep` finds. `keep` is not thread-safe.
+  /// Writes the instance's InstancePlace except for `body`, which `keep` finds. `keep` is not
+  /// thread-safe.
   Placed placed(std::size_t i, std::uint32_t definition, const Affine<double>& pose);
   void keep(std::size_t i, std::uint32_t definition, const Placed& placed);
   void put(std::size_t i, std::uint32_t definition, const Affine<double>& pose);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Motion of a body while time goes from 0 to 1: the body turns at a constant rate about a pivot
-// that moves along a line. To cast a ray at a time, the ray is moved back and cast at the body's
-// pose of time 0: exact, without stretched or sliced shapes.
+// that moves along a line. A ray with a time is moved back to time 0 and cast at the body's pose
+// there. This is exact: no shape is stretched or sliced.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ struct Movement {
   Vec3<T> shift = Vec3<T>::Zero();
   T angle = T(0);  ///< in radians, by the right-hand rule
   Vec3<T> axis = Vec3<T>::UnitZ();
-  Vec3<T> pivot = Vec3<T>::Zero();  ///< place at time 0
+  Vec3<T> pivot = Vec3<T>::Zero();  ///< position at time 0
 
   bool stands() const { return angle == T(0) && shift.isZero(T(0)); }
 
@@ -39,8 +39,8 @@ struct Movement {
     return angle == T(0) ? unshifted : Vec3<T>(pivot + unturned(unshifted - pivot, time));
   }
 
-  /// Bounds the error of moving back a ray with this origin, near the pivot or near the origin: a
-  /// dozen roundings of the distance between them.
+  /// Bounds the error of `unmoved` for a ray with this origin, at points near the pivot or near the
+  /// origin: a dozen roundings of the distance between the two.
   T rounding(const Vec3<T>& origin) const {
     constexpr T roundings = T(6) * std::numeric_limits<T>::epsilon();
     return roundings * (origin.norm() + pivot.norm() + shift.norm());
@@ -61,9 +61,9 @@ struct Movement {
     return now;
   }
 
-  /// Returns a box that contains the body at all times, given its boxes at time 0 and 1. A point at
-  /// the distance rho from the axis is at most rho angle^2 / 8 from the line between its ends,
-  /// since its path's second derivative is rho angle^2.
+  /// Returns a box that contains the body at all times, given its boxes at time 0 and 1. The path
+  /// of a point at the distance rho from the axis has the second derivative rho angle^2. The path
+  /// is therefore at most rho angle^2 / 8 from the line between its end points.
   Bounds<T> swept(const Bounds<T>& begin, const Bounds<T>& end) const {
     Bounds<T> all = begin;
     all.extend(end);

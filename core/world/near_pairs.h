@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds which of many bodies are near each other, with their signed distances, by traversing a BVH
-// against itself or another BVH. Not for half-spaces, which have no box.
+// Finds pairs of near bodies among many, and their signed distances, by traversing a BVH against
+// itself or another BVH. Half-spaces are not supported, since they have no box.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@ namespace minkray {
 struct ContactBody {
   ContactShape shape;
   Affine<double> pose;  ///< rigid, to the world
-  /// Two bodies are a pair if each one's mask has a bit of the other's category.
+  /// Two bodies are a pair only if each body's mask has a bit of the other's category.
   std::uint32_t category = 1;
   std::uint32_t mask = ~std::uint32_t{0};
   std::shared_ptr<const TriangleMesh> mesh =
-      {};  ///< if not null, the body is this mesh, not the shape
+      {};  ///< if not null, the body is this mesh instead of the shape
 
   PartsBody parts() const { return mesh ? PartsBody(*mesh) : PartsBody(shape); }
   bool is_pair_with(const ContactBody& other) const {

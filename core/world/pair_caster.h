@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Exact casts for pairs of a ray and an instance: four pairs of a body at a time if it has a closed
-// form; otherwise, all rays at one instance together.
+// Exact casts for pairs of a ray and an instance. If the body has a closed form, four pairs are
+// cast at a time; otherwise, all rays are cast at one instance after another.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,8 @@ struct OpenPair {
   float first;
 };
 
-/// Calls on_found(ray, instance, t, result) for pairs that meet; result() makes the CastResult.
+/// Calls on_found(ray, instance, t, result) for pairs that meet. Here result() returns the
+/// CastResult.
 template <class OnFound>
 class PairCaster {
  public:
@@ -50,8 +51,8 @@ class PairCaster {
       if (queues_[body].count != 0) cast_together(queues_[body], instances_.bodies()[body]);
   }
 
-  /// Casts pairs whose bodies have no closed form, by instance and then by lower bound.
-  /// is_due(pair) returns true if a pair still matters.
+  /// Casts pairs whose bodies have no closed form, sorted by instance and then by lower bound.
+  /// is_due(pair) returns true if the pair can still change the result.
   template <class IsDue>
   void cast_formless(std::vector<OpenPair>& pairs, const IsDue& is_due) {
     std::sort(pairs.begin(), pairs.end(), [](const OpenPair& a, const OpenPair& b) {
@@ -85,7 +86,7 @@ class PairCaster {
     pairs.clear();
   }
 
-  /// Rays with a cast that did not converge; a ray may occur several times.
+  /// Rays with a cast that did not converge. The list may contain a ray several times.
   const std::vector<std::uint32_t>& exhausted() const { return exhausted_; }
 
  private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Queues pairs of a ray and an instance found by a traversal: eight pairs of a kind at a time are
-// tested in float lanes, which discard most of them. Pairs that may hit are passed on.
+// Queues pairs of a ray and an instance that a traversal finds, by the kind of the closed form.
+// Tests eight pairs at a time in float lanes, which discard most pairs, and passes on those that
+// may hit.
 #pragma once
 
 #include <array>
@@ -13,17 +14,17 @@
 
 namespace minkray {
 
-/// Upper limit of t for each ray: at most its first certain hit.
+/// Upper limit of t for each ray: hits beyond the first certain hit do not matter.
 struct RayLimits {
   std::vector<SlabRay> slabs;
   std::vector<float> t;            ///< rounded up from double
-  std::vector<std::uint8_t> sure;  ///< 1: the limit comes from a pair that has not been cast yet
+  std::vector<std::uint8_t> sure;  ///< 1: the limit is from a certain hit that is not cast yet
 
   explicit RayLimits(const RaySpan& rays) : slabs(rays.size()), t(rays.size()), sure(rays.size()) {
     for (std::size_t i = 0; i < rays.size(); ++i) t[i] = detail::float_above(rays.ray(i).t_max);
     make_slabs_avx2(rays.data(), rays.stride(), rays.size(), slabs.data());
   }
-  /// Ends the ray: no further instance matters.
+  /// Ends the ray: further instances are ignored.
   void end(std::size_t ray) {
     t[ray] = -1;
     slabs[ray].numbers.t_max = -1;
@@ -37,8 +38,8 @@ struct RayLimits {
   }
 };
 
-/// Calls on_open(ray, instance, first, last, is_sure) for pairs that may hit: at t >= first and, if
-/// `is_sure`, certainly at t <= last.
+/// Calls on_open(ray, instance, first, last, is_sure) for pairs that may hit. The hit is at
+/// t >= first. If `is_sure`, the ray certainly hits, at t <= last.
 template <class OnOpen>
 class PairScreen {
  public:
@@ -51,7 +52,7 @@ class PairScreen {
         rays_(rays),
         on_open_(std::move(on_open)) {}
 
-  /// Keeps the pairs until the next call, and prefetches their places meanwhile.
+  /// Keeps the pairs until the next call, and meanwhile prefetches the instances' poses.
   void take(const std::uint32_t* rays, const std::uint32_t* instances, std::size_t pairs) {
     if (kind_of_all_ != FormKind::none) {
       std::size_t from = 0;
@@ -132,7 +133,7 @@ class PairScreen {
   /// Screens pairs with moving instances: moves the rays to the instances' time 0.
   ScreenBits of_moving(FormKind kind, const std::uint32_t* ray, const std::uint32_t* instance,
                        Screened& answers) const {
-    std::array<Ray<double>, screen_lanes + 1> seen;  // one more, which vector loads read
+    std::array<Ray<double>, screen_lanes + 1> seen;  // vector loads read one item more
     std::array<float, screen_lanes> limits;
     std::array<std::uint32_t, screen_lanes> number;
     for (std::uint32_t i = 0; i < screen_lanes; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A mesh with its pose: a ray is mapped to the mesh's frame, once for all triangles.
+// A mesh with its pose. A ray is mapped to the mesh's frame once for all triangles.
 #pragma once
 
 #include <memory>
@@ -25,23 +25,23 @@ struct PosedMesh {
   Bounds<double> bounds_under(const Affine<double>& other) const;
 };
 
-/// Result of a cast at a posed mesh, and the triangle. The normal is the triangle's, towards the
-/// ray's origin.
+/// Result of a cast at a posed mesh, and the hit triangle. The normal is that of the triangle, on
+/// the side of the ray's origin.
 struct MeshCast {
   CastResult<double> cast;
   std::uint32_t part = no_part;
 };
 
-/// A ray that leaves the mesh ignores hits closer to its origin than this, relative to the mesh's
-/// size and the ray's distance from it: these are due to rounding of the origin.
+/// A ray that starts on the mesh ignores hits closer to its origin than this, since they are due to
+/// rounding of the origin. Relative to the mesh's size and the ray's distance from the mesh.
 inline constexpr double leaving_mesh = 0x1p-36;
 
 /// Hits beyond t = `most`, which may be infinite, do not matter. `loss` is the error of the ray's
 /// position. Returns `exhausted` instead of a miss if numbers are too large.
 MeshCast cast_ray(const PosedMesh& posed, const Ray<double>& ray, double most, bool leaves,
                   double loss, PartCounts& counts);
-/// Finds where a ray from outside of a closed mesh leaves it: the second intersection, or the first
-/// if there is only one. Only sets the status and t.
+/// Finds where a ray from outside leaves a closed mesh: at the second intersection, or at the first
+/// one if there is only one. Sets only the status and t.
 CastResult<double> cast_exit(const PosedMesh& posed, const Ray<double>& ray);
 /// True if the ray hits the mesh at t <= ray.t_max.
 bool is_met(const PosedMesh& posed, const Ray<double>& ray, bool leaves, PartCounts& counts);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Traces up to 64 rays from one point with similar directions, such as a camera's for 8 by 8
-// pixels: one BVH traversal with the bounds of all rays; float lanes find the first instance for
-// each ray; then one exact cast per ray.
+// Traces up to 64 rays from one point with similar directions, such as a camera's rays for 8 by 8
+// pixels. One BVH traversal uses the bounds of all rays; float lanes find the first instance for
+// each ray; then each ray needs one exact cast.
 #pragma once
 
 #include "core/bvh/bvh.h"
@@ -15,11 +15,11 @@ inline constexpr std::size_t rays_of_block = 64;
 
 /// Result for the rays of a block. Numbers are ray parameters.
 struct alignas(32) BlockAnswer {
-  /// Indexed by ray: hits beyond `limit` do not matter; `lo` is a lower bound of t for the certain
-  /// hit, infinite without one.
+  /// Indexed by ray. Hits beyond `limit` do not matter. `lo` is a lower bound of t for the ray's
+  /// certain hit, or infinite if there is none.
   float limit[rays_of_block], lo[rays_of_block];
   std::uint32_t instance[rays_of_block];  ///< of the certain hit, or no_instance
-  /// Pairs that may hit before the certain hit, or instead of it.
+  /// Pairs that may hit before the certain hit, or although there is no certain hit.
   struct Other {
     float first;
     std::uint32_t ray, instance;
@@ -38,9 +38,9 @@ struct BlockWorld {
   const RayKinds* shown_to;  ///< by instance; null if all are shown
 };
 
-/// Traces `count` rays that lie `stride` bytes apart and all have these kinds. `limits` (or null)
-/// has an upper limit of t per ray. Returns false if the directions differ too much, or too many
-/// pairs are undecided. Requires AVX2 and FMA.
+/// Traces `count` rays, stored `stride` bytes apart, that all have the same kinds. `limits` (or
+/// null) has an upper limit of t per ray. Returns false if the directions differ too much, or if
+/// too many pairs are undecided. Requires AVX2 and FMA.
 bool trace_block_avx2(const BlockWorld& world, const char* rays, std::size_t stride,
                       std::size_t count, RayKinds kinds, const float* limits, BlockAnswer& answer);
 
@@ -51,8 +51,8 @@ struct FourPairs {
   const TrailingDigits* digits[4];  ///< null if there are none
 };
 
-/// Same as cast_ray, for the lanes; lanes in doubt are neither hit, inside nor miss. Requires AVX2
-/// and FMA.
+/// Same as cast_ray for the given lanes. A lane that cannot be decided is neither hit, inside nor
+/// miss. Requires AVX2 and FMA.
 void cast_four_avx2(const InstanceBody& body, const FourPairs& pairs, LaneBits lanes,
                     CastPacket<double>& answers);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds instances that occur several times at one place: rays only need two of them.
+// Finds instances of one shape that have the same pose: rays only need two of them.
 #pragma once
 
 #include <cstdint>
@@ -9,9 +9,9 @@
 
 namespace minkray {
 
-/// Returns the instances that no ray can hit first, in ascending order: two others with lower
-/// indices have the same shape, place and ray kinds, and a ray skips one instance at most. Empty if
-/// any instance moves.
+/// Returns the instances that no ray can hit first, in ascending order. For each of them, two
+/// instances with lower indices have the same shape, pose and ray kinds, and a ray skips at most
+/// one instance. Empty if any instance moves.
 std::vector<std::uint32_t> repeated_instances(const Instances& instances);
 
 }  // namespace minkray

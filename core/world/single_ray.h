@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Traces one ray through the BVH, near boxes first: float lanes screen the instances of a node
-// together; the caller casts the ray at those that it may hit.
+// Traces one ray through the BVH, near boxes first. Float lanes screen the instances of a node
+// together; the caller then casts the ray at the instances that it may hit.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct SingleRay {
   /// Upper limit of t; lowered to the upper bound of a certain hit.
   float limit;
   bool is_sure = false;       ///< the ray certainly hits an instance
-  bool ends_if_sure = false;  ///< any certain hit ends the search
+  bool ends_if_sure = false;  ///< the first certain hit ends the search
   /// Instances that the ray may hit, with lower bounds of t.
   struct Candidate {
     std::uint32_t instance;

@@ -35,8 +35,8 @@ class HitReceiver {
   virtual void take(std::size_t first, std::uint64_t which, const BlockHits& hits) = 0;
 };
 
-/// Any number of threads may query a world while none changes it. Results are bit-identical for a
-/// ray, whatever other rays are in the batch and whatever the BVH.
+/// Any number of threads may query a world while no thread changes it. The result of a ray depends
+/// neither on other rays of the batch nor on the BVH, to the last bit.
 class World {
  public:
   World() = default;
@@ -44,9 +44,9 @@ class World {
                  BvhBuild build = BvhBuild::quality);
 
   /// Returns the first instance that the ray hits with 0 <= t <= t_max; of several at the same t,
-  /// the one with the least index. Ignores `skip`, the instance that the ray leaves: all of it if
-  /// convex; of a mesh, only hits very near to the ray's origin (leaving_mesh). A cast that does
-  /// not converge is neither a hit nor a miss; check `counts.exhausted`.
+  /// the one with the least index. `skip` is the instance on whose surface the ray starts: a convex
+  /// shape is ignored, and a mesh is ignored very near the ray's origin (leaving_mesh). A cast that
+  /// does not converge is neither a hit nor a miss; check `counts.exhausted`.
   WorldHit closest_hit(const Ray<double>& ray, QueryCounts& counts,
                        std::uint32_t skip = no_instance, double time = 0) const {
     return closest_hit(WorldRay{ray, skip, time}, counts);
@@ -60,7 +60,7 @@ class World {
   }
   bool occluded(const WorldRay& ray, QueryCounts& counts) const;
 
-  /// Finds the first hits of any number of rays; faster if many, and if neighbours are similar.
+  /// Finds the first hits of many rays. Large batches and similar neighbours are faster.
   void closest_hits(const RaySpan& rays, HitReceiver& to, QueryCounts& counts) const;
   /// Sets hits[i] to the result of rays[i].
   void closest_hits(std::span<const WorldRay> rays, std::span<WorldHit> hits,
@@ -72,18 +72,18 @@ class World {
     occluded(RaySpan(rays), met, counts);
   }
 
-  /// Moves all instances: the i-th to pose_of(i), and from there along movement_of(i), if given,
-  /// while time goes from 0 to 1. Both functions are called from several threads at once. Refits
-  /// the BVH, or rebuilds it if it has become 1.5 times as costly since it was built.
+  /// Moves all instances: the i-th to pose_of(i). With movement_of, the i-th then moves along
+  /// movement_of(i) while time goes from 0 to 1. Both functions are called from several threads at
+  /// once. Refits the BVH, or rebuilds it if its cost is 1.5 times that after the last build.
   void pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
                 const std::function<Movement<double>(std::size_t)>& movement_of = {});
 
-  /// Moves one instance but not its box: before the next query call pose_all, whose pose_of must
-  /// return this pose.
+  /// Moves one instance but not its box. Before the next query, call pose_all with a pose_of that
+  /// returns this pose.
   void set_pose(std::size_t i, const Affine<double>& pose) { instances_.set_pose(i, pose); }
 
   const Instances& instances() const { return instances_; }
-  /// Releases the instances, to be changed and used for a new world.
+  /// Moves out the instances, to change them and make a new world.
   Instances release() && { return std::move(instances_); }
   const Bvh& bvh() const { return bvh_; }
   const CastOptions<double>& options() const { return options_; }
@@ -102,7 +102,7 @@ class World {
   SingleWorld single_world() const;
   void closer_hit(const WorldRay& ray, SlabRay& slabs, WorldHit& closest,
                   QueryCounts& counts) const;
-  /// Tests half-spaces, which are in no BVH, and meshes, which have their own. True if one is hit
+  /// Tests half-spaces and meshes, which are not in the BVH of the shapes. True if one is hit
   /// before `closest`.
   bool closer_shapeless(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
   bool closer_half_space(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
@@ -135,13 +135,13 @@ class World {
   Bvh mesh_boxes_;  ///< of meshes; indices are those in Instances::meshes()
   BvhBuild build_ = BvhBuild::quality;
   bool has_repeated_ = false;   ///< duplicates are left out of the BVH
-  double visits_as_built_ = 0;  ///< expected per ray; 0: not known yet
+  double visits_as_built_ = 0;  ///< expected node visits per ray; 0: not computed yet
   CastOptions<double> options_;
   bool is_default_ = true;  ///< the options allow packets and closed forms
   FormKind kind_of_all_ = FormKind::none;
 };
 
-/// Largest number of rays of a stream, so that their data stay in the cache.
+/// Largest number of rays of a stream: their data fit in the cache.
 inline constexpr std::size_t rays_of_stream = 1024;
 
 }  // namespace minkray

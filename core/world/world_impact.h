@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds which of many bodies at rest a moving body touches first, and when. Bodies are tried in the
+// Finds the first body at rest that a moving body touches, and the time. Bodies are tried in the
 // order in which the moving body's box reaches their boxes.
 #pragma once
 

@@ -19,12 +19,12 @@ struct QueryCounts {
   std::uint64_t iterations = 0;
   std::uint64_t supports = 0;
   std::array<std::uint64_t, path_count> by_path =
-      {};                       ///< number of `casts` that each path answered
+      {};                       ///< number of `casts` that ended on each path
   std::uint64_t exhausted = 0;  ///< casts that did not converge; the ray continues
 
   std::uint64_t answered_by(Path path) const { return by_path[static_cast<std::size_t>(path)]; }
 
-  /// Returns the last path that any cast needed; without casts, the first path.
+  /// Returns the latest path that any cast needed; without casts, the first path.
   Path furthest_path() const {
     std::size_t path = path_count - 1;
     while (path > 0 && by_path[path] == 0) --path;
@@ -81,8 +81,8 @@ struct WorldHit {
   }
 };
 
-/// A ray with its time (0 to 1), its kinds, and an instance to skip: only instances that are shown
-/// to one of its kinds are hit.
+/// A ray with its time (0 to 1), its kinds, and an instance to skip. The ray hits only instances
+/// that are shown to one of its kinds.
 struct WorldRay {
   Ray<double> ray;
   std::uint32_t skip = no_instance;
@@ -95,8 +95,8 @@ struct WorldRay {
   }
 };
 
-/// View of the caller's rays, a fixed number of bytes apart: WorldRays, or plain rays, which skip
-/// no instance, have time 0 and are of all kinds.
+/// View of the caller's rays, a fixed number of bytes apart: WorldRays, or plain rays. Plain rays
+/// skip no instance, have time 0 and are of all kinds.
 class RaySpan {
  public:
   RaySpan(std::span<const WorldRay> rays)
@@ -129,7 +129,7 @@ class RaySpan {
   }
 
  private:
-  /// Casts the pointer: a WorldRay begins with its ray.
+  /// Converts the pointer, since a WorldRay begins with its ray.
   const WorldRay& more(std::size_t i) const {
     return *reinterpret_cast<const WorldRay*>(first_ + i * stride_);
   }

@@ -568,7 +568,7 @@ inline constexpr std::uint32_t no_object = MINKRAY_NO_OBJECT;
 
 /// Hit of a ray; see minkray_hit.
 struct Hit {
-  double t = std::numeric_limits<double>::infinity();  ///< in lengths of the direction
+  double t = std::numeric_limits<double>::infinity();  ///< the point is origin + t direction
   double t_lo = t, t_hi = t;                           ///< proven bounds of t
   double t_base = 0, t_offset = 0;                     ///< t = t_base + t_offset, with more digits
   Vec3 point, normal;
@@ -611,8 +611,8 @@ inline void check_sizes(const char* function, const char* argument, std::size_t 
 
 using Proof = minkray_proof;
 
-/// Writes at most rays.size() rays of a lidar: "spinning:32x1800", "VLP-16", or a file. Returns the
-/// number of all its rays.
+/// Writes at most rays.size() rays of a lidar: "spinning:32x1800", "VLP-16", or a file. Returns how
+/// many rays the lidar has.
 inline std::size_t lidar(Text pattern, const Pose& pose, View<Ray> rays = {}) {
   std::size_t needed = 0;
   detail::check(minkray_lidar_rays(pattern.c_str(), detail::plain(&pose),
@@ -769,7 +769,7 @@ class Scene {
         minkray_scene_add(handle_, shape.handle(), detail::plain(&pose), name.c_str(), &object));
     return object;
   }
-  /// Adds all points x with normal . x <= offset |normal|.
+  /// Adds a half-space: all points x with normal . x <= offset |normal|.
   std::uint32_t add_half_space(const Vec3& normal, double offset, Text name = {}) {
     std::uint32_t object = 0;
     detail::check(minkray_scene_add_half_space(handle_, &normal.x, offset, name.c_str(), &object));

@@ -10,12 +10,12 @@
  * allows it.
  *
  * Handles are numbers, never addresses: using a released or invalid handle is a reported error,
- * even if others were made since.
+ * even if newer handles exist.
  *
- * Threads: functions that take a scene and are not described as changing it may be called by any
- * number of threads at once, and so may all functions of shapes. A call that changes or releases a
- * scene while another call uses it, from any thread or from a callback, returns MINKRAY_WRONG_USE
- * and changes nothing; so does a call that uses a scene while it is changed.
+ * Threads: any number of threads may call functions of shapes at once. The same holds for functions
+ * of scenes that do not change the scene. A call that changes or releases a scene while another
+ * call (from any thread or a callback) uses this scene returns MINKRAY_WRONG_USE and changes
+ * nothing. A call that uses a scene during a change also returns MINKRAY_WRONG_USE.
  *
  * All points, directions and poses are in the world's frame and unit of length, in double.
  */
@@ -88,9 +88,9 @@ MINKRAY_API int minkray_shape_make(const char* kind, const minkray_parameter* pa
 MINKRAY_API int minkray_shape_read(const char* json, const char* folder, minkray_shape* shape);
 
 /* A custom shape: points[i] is its point furthest along directions[i], which has length 1. Equal
- * directions must get equal points. Several threads call it at once. Queries of the shape itself,
- * or of shapes made of it, return MINKRAY_WRONG_USE from within it. Returns 0, or nonzero if it
- * failed: see minkray_support_failed. */
+ * directions must get equal points. Several threads call it at once. Queries of the shape
+ * itself, or of shapes made of it, are not allowed inside the function and return
+ * MINKRAY_WRONG_USE. Returns 0, or nonzero if it failed: see minkray_support_failed. */
 typedef int (*minkray_support_function)(void* user, size_t count, const double (*directions)[3],
                                         double (*points)[3]);
 
@@ -103,10 +103,9 @@ typedef struct minkray_support {
 } minkray_support;
 
 /* A mesh: triangles with shared vertices, three indices of vertices each, counter-clockwise as seen
- * from outside. Rays hit the mesh itself, not its hull, from both sides, and a ray at an edge or
- * vertex of a closed mesh hits one of the triangles there. Scenes accept a mesh like a shape;
- * functions that need a convex shape, such as minkray_shape_make, reject it. Both arrays are
- * copied. */
+ * from outside. Rays hit the mesh itself, not its hull, from both sides. A ray at an edge or vertex
+ * of a closed mesh hits one of the triangles there. Scenes accept a mesh like a shape; functions
+ * that need a convex shape, such as minkray_shape_make, reject a mesh. Both arrays are copied. */
 MINKRAY_API int minkray_shape_mesh(const double (*vertices)[3], size_t vertex_count,
                                    const uint32_t (*triangles)[3], size_t triangle_count,
                                    minkray_shape* shape);
@@ -140,15 +139,15 @@ MINKRAY_API void minkray_support_failed(const char* reason);
  * `release` is called. */
 MINKRAY_API int minkray_shape_custom(const minkray_support* support, minkray_shape* shape);
 
-/* Makes a shape from a function that is expensive per call and cheap per direction: casts of many
- * rays collect up to `gathered` directions per call. Functions in an interpreter are an example.
- * The results are the same; other queries call with at most 16. */
+/* Makes a shape from a function that is expensive per call and cheap per direction, such as a
+ * function in an interpreter. Casts of many rays collect up to `gathered` directions per call;
+ * other queries pass at most 16. The results are the same as without `gathered`. */
 MINKRAY_API int minkray_shape_custom_gathered(const minkray_support* support, size_t gathered,
                                               minkray_shape* shape);
 
-/* Derivatives of support points with respect to directions of length 1: derivatives[i], that of
- * points[i], is a symmetric matrix, row by row. Its product with the direction is zero, its other
- * eigenvalues are the radii of curvature; at a vertex the matrix is zero. */
+/* Derivatives of support points with respect to directions of length 1. derivatives[i] is the
+ * derivative of points[i]: a symmetric matrix, row by row. Its product with the direction is zero;
+ * its other eigenvalues are the radii of curvature. At a vertex the matrix is zero. */
 typedef int (*minkray_jet_function)(void* user, size_t count, const double (*directions)[3],
                                     double (*points)[3], double (*derivatives)[9]);
 
@@ -196,7 +195,7 @@ MINKRAY_API int minkray_scene_release(minkray_scene scene);
 MINKRAY_API int minkray_scene_add(minkray_scene scene, minkray_shape shape,
                                   const minkray_pose* pose, const char* name, uint32_t* object);
 
-/* Adds all points x with normal . x <= offset |normal|. */
+/* Adds a half-space: all points x with normal . x <= offset |normal|. */
 MINKRAY_API int minkray_scene_add_half_space(minkray_scene scene, const double normal[3],
                                              double offset, const char* name, uint32_t* object);
 
@@ -363,7 +362,7 @@ MINKRAY_API int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose
 typedef struct minkray_proof {
   int32_t holds; /* 1 if proven */
   int32_t reserved;
-  uint32_t against; /* the object that the proof failed at, or MINKRAY_NO_OBJECT */
+  uint32_t against; /* the object for which the proof failed, or MINKRAY_NO_OBJECT */
   uint32_t checked; /* number of objects with a proof */
   double t_lo;      /* of hits: proven bounds of t, including rounding */
   double t_hi;
@@ -380,21 +379,23 @@ MINKRAY_API int minkray_scene_prove(minkray_scene scene, const minkray_ray* rays
 
 /* ---- sensors --------------------------------------------------------------------------------- */
 
-/* A lidar's rays. `pattern` is "spinning:CHANNELSxSTEPS[:LOWEST,HIGHEST[:FROM,TO]]" (elevations,
- * default -15,15, and azimuths in degrees): row by row, the highest elevation first, clockwise from
- * behind unless azimuths are given. Or a lidar's name ("VLP-16", "VLP-32C", "HDL-64E", "OS1-64",
- * "Mid-360"). Or a file: .csv (Livox), .json of elevations (also Ouster's), .mat3x4f. In the
- * sensor's frame x is ahead and z is the axis; `pose`, of the sensor in the world, may be NULL.
- * Directions have length 1, so that t is the distance. Writes at most `size` rays, and their number
- * to `needed` (if not NULL). */
+/* A lidar's rays. `pattern` is one of
+ * - "spinning:CHANNELSxSTEPS[:LOWEST,HIGHEST[:FROM,TO]]": elevations (default -15,15) and azimuths
+ *   in degrees. Rays are row by row, the highest elevation first, by default clockwise from behind.
+ * - a lidar's name: "VLP-16", "VLP-32C", "HDL-64E", "OS1-64" or "Mid-360".
+ * - a file: .csv (Livox), .json of elevations (also Ouster's) or .mat3x4f.
+ * In the sensor's frame x is ahead and z is the axis. `pose` is that of the sensor in the world, or
+ * NULL. Directions have length 1, so t is the distance. Writes at most `size` rays, and the number
+ * of all rays to `needed` (if not NULL). */
 MINKRAY_API int minkray_lidar_rays(const char* pattern, const minkray_pose* pose, minkray_ray* rays,
                                    size_t size, size_t* needed);
 
-/* A calibrated camera's rays, row by row: `camera` is the text of a JSON object with fx, fy, cx,
- * cy, width and height in pixels, and optionally "model" ("pinhole" or "fisheye"), k1 to k6 (k4),
- * p1 and p2, all as in OpenCV, with the centre of the first pixel at (0, 0). Directions have z = 1
- * in the camera's frame (t is the depth), for fisheyes length 1, and are NaN where the distortion
- * has no inverse. Pose, size and `needed` are as for lidars. */
+/* A calibrated camera's rays, row by row. `camera` is the text of a JSON object with fx, fy, cx,
+ * cy, width and height in pixels. Optional are "model" ("pinhole" or "fisheye"), k1 to k6
+ * (fisheyes: k1 to k4), p1 and p2. All are as in OpenCV: the centre of the first pixel is at (0,
+ * 0). Directions have z = 1 in the camera's frame, so t is the depth; for fisheyes they have
+ * length 1. Directions are NaN where the distortion has no inverse. Pose, size and `needed` are as
+ * for lidars. */
 MINKRAY_API int minkray_camera_rays(const char* camera, const minkray_pose* pose, minkray_ray* rays,
                                     size_t size, size_t* needed);
 
@@ -402,9 +403,9 @@ MINKRAY_API int minkray_camera_rays(const char* camera, const minkray_pose* pose
 
 typedef struct minkray_picture_options {
   size_t size; /* sizeof(minkray_picture_options) */
-  /* The keys "camera", "lights" and "background" of scene files, in an object, as text; keys that
-   * are present replace those of the scene's files. May be NULL. Without a camera the picture shows
-   * everything; without lights there are a sun and a sky. */
+  /* Text of a JSON object with the keys "camera", "lights" and "background" of scene files, each
+   * optional. Present keys replace those of the scene's files. May be NULL. Without a camera the
+   * picture shows all objects; without lights there are a sun and a sky. */
   const char* view;
   uint32_t width; /* in pixels; 0: the camera's */
   uint32_t height;
@@ -423,8 +424,8 @@ typedef struct minkray_channel {
   size_t count;     /* of values: width * height * numbers per pixel */
 } minkray_channel;
 
-/* Returns the count of a channel's numbers per pixel, and if they are integers; both pointers may
- * be NULL. */
+/* Returns how many numbers per pixel a channel has, and if they are integers; both pointers may be
+ * NULL. */
 MINKRAY_API int minkray_picture_channel(const char* name, uint32_t* numbers, int32_t* is_integer);
 
 /* Size of a picture. Options may be NULL. */
@@ -448,7 +449,7 @@ typedef enum minkray_distance_status {
 } minkray_distance_status;
 
 typedef struct minkray_distance {
-  double value; /* between lower and upper; for an overlap, minus the depth */
+  double value; /* between lower and upper; minus the depth for an overlap */
   double lower;
   double upper;
   double point_a[3]; /* point_b - point_a = value normal, to rounding; in contact to 3e-6 sizes */
@@ -518,8 +519,8 @@ typedef struct minkray_clearance_options {
   double* jac_error;
 } minkray_clearance_options;
 
-/* The least signed distance between the robot and the objects around it, and between its links that
- * no joint connects, along the whole path, not only at samples. */
+/* The least signed distance along the entire path, not only at samples: between the robot and other
+ * objects, and between links of the robot that no joint connects. */
 typedef struct minkray_clearance {
   double lower; /* proven lower bound; infinite without other objects */
   double upper; /* reached at `row` */
@@ -535,10 +536,10 @@ typedef struct minkray_clearance {
 
 /* Clearance of a robot along a path of `rows` rows of `numbers` joint values each, in the order of
  * minkray_scene_joint, linear between rows. `steps` (or NULL) receives one result per pair of
- * consecutive rows, or one for a single row; `least` (or NULL) receives the least of all. Pairs
- * excluded by minkray_scene_allow or masks are skipped. The shapes are those that the file was
- * added with: see `geometry` of minkray_file_options. With more than 1,000,000 objects and
- * particles, or 10,000,000 pairs, returns MINKRAY_BAD_INPUT. The scene must be committed; the
+ * consecutive rows, or one for a single row; `least` (or NULL) receives the least of them. Pairs
+ * excluded by minkray_scene_allow or masks are skipped. The option `geometry`, with which the file
+ * was added, selects the robot's shapes. With more than 1,000,000 objects and particles, or
+ * 10,000,000 pairs, returns MINKRAY_BAD_INPUT. The scene must be committed; the
  * current values of the robot's joints do not matter. */
 MINKRAY_API int minkray_scene_clearance(minkray_scene scene, uint32_t group, const double* path,
                                         size_t rows, size_t numbers,
@@ -578,9 +579,10 @@ typedef struct minkray_verdict {
 } minkray_verdict;
 
 /* Verifies a robot's motion along a path as in minkray_scene_clearance. `rates` (or NULL) has as
- * many numbers as `path`: derivatives of the joint values by time. Joints other than quaternions
- * then move as cubics between rows, with accelerations as quintics. Returns MINKRAY_BAD_INPUT if
- * `proof` is set but a proof is impossible; an undecided motion has no proof. */
+ * many numbers as `path`: derivatives of the joint values with respect to time. Joints other than
+ * quaternions then move as cubics between rows, or as quintics if accelerations are given. Returns
+ * MINKRAY_BAD_INPUT if `proof` is set but a proof is impossible; an undecided motion has no proof.
+ */
 MINKRAY_API int minkray_scene_verify(minkray_scene scene, uint32_t group, const double* path,
                                      const double* rates, size_t rows, size_t numbers,
                                      const minkray_verdict_options* options,

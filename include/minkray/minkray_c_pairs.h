@@ -4,8 +4,8 @@
 #ifndef MINKRAY_MINKRAY_C_PAIRS_H
 #define MINKRAY_MINKRAY_C_PAIRS_H
 
-/* All poses are rigid: a rotation or a reflection, and a translation. Their linear parts may
- * deviate by 1e-6; the results are those of the given numbers. A larger deviation is
+/* All poses are rigid: a rotation or a reflection, and a translation. The linear part may deviate
+ * from this by 1e-6 (results are those of the given numbers); a larger deviation is
  * MINKRAY_WRONG_USE.
  */
 
@@ -38,18 +38,18 @@ typedef struct minkray_bodies {
 } minkray_bodies;
 
 /* Warm start: the final state of a query on a pair, kept by the caller for the next query on the
- * same pair, which is faster if the two have moved little. All zeros: empty. Bounds hold for any
- * contents; the result's last digits depend on them. */
+ * same pair. This query is then faster if the two have moved little. All zeros: empty. Bounds hold
+ * for any contents; the result's last digits depend on the contents. */
 typedef struct minkray_pair_memory {
   uint64_t words[8];
 } minkray_pair_memory;
 
 /* NULL arrays are not filled. Derivatives are with respect to a twist of a body at the time of the
  * query: the velocity of its frame's origin (the pose's translation) along the world's axes, then
- * the angular velocity about that point. `is_ridge` is 1 if the bounds do not exclude other
- * derivatives: for parallel faces, an edge on a face, a depth in two directions; the reported
- * derivative is one of them. Derivatives are NaN if the distance is unknown. If any is requested,
- * distances are computed to a tolerance of 1e-15, and the direction of a depth to rounding.
+ * the angular velocity about that point. `is_ridge` is 1 if the derivative may not be unique: for
+ * parallel faces, an edge on a face, a depth in two directions. The reported derivative is then one
+ * of them. Derivatives are NaN if the distance is unknown. If any derivative is requested,
+ * distances are computed to a tolerance of 1e-15, and the direction of a depth up to rounding.
  * `jac_error_a` and `jac_error_b` bound the length of a derivative's error, for velocity and for
  * angular velocity. Both are infinite on ridges, for meshes, for depths in more than one direction,
  * and for turns about points that may slide on a surface of unknown curvature. */
@@ -108,9 +108,8 @@ MINKRAY_API int minkray_times_of_impact(const minkray_bodies* a, const minkray_b
                                         const minkray_impact_arrays* impacts,
                                         const minkray_options* how);
 
-/* Up to four contact points: corners of the parts of the two shapes that face each other, paired
- * along the normal: point_b - point_a = gap normal. The first pair is that of the signed distance.
- */
+/* Up to four pairs of contact points: corners of the region where the two shapes face each other.
+ * In each pair, point_b - point_a = gap normal. The first pair is that of the signed distance. */
 typedef struct minkray_manifold {
   double normal[3]; /* unit vector from a to b */
   double points_a[4][3];
@@ -128,7 +127,7 @@ typedef struct minkray_manifold_arrays {
   size_t size; /* sizeof(minkray_manifold_arrays) */
   minkray_manifold* manifolds;
   double* normals;  /* three per pair */
-  double* points;   /* midpoints of those of a and b: four times three per pair */
+  double* points;   /* midpoints of points_a and points_b: four times three per pair */
   double* points_a; /* likewise */
   double* points_b;
   double* gaps; /* four per pair */
@@ -202,7 +201,7 @@ typedef int (*minkray_take_pairs)(void* user, const minkray_scene_pair* pairs, s
  * or that are allowed, pairs of half-spaces, and links of a robot that do not move relative to each
  * other or that a joint connects. If `pairs` is not NULL, computes exactly these `count` pairs (two
  * numbers each), in their order, even if masks exclude them or they are allowed. Options may be
- * NULL: within 0, no derivatives. The only member of `how` that is used is `threads`. */
+ * NULL: `within` is then 0, without derivatives. `threads` is the only used member of `how`. */
 MINKRAY_API int minkray_scene_distances(minkray_scene scene, const uint32_t* pairs, size_t count,
                                         const minkray_near_options* options,
                                         minkray_take_pairs take, void* user,
@@ -216,7 +215,7 @@ MINKRAY_API int minkray_scene_nearest(minkray_scene scene, const double (*points
 
 /* The object nearest to each of many given shapes. The shapes are not part of the scene; in each
  * pair, a is the shape. There is always one, unless the scene is empty or `within` excludes all
- * objects. Options may be NULL: within infinity. */
+ * objects. Options may be NULL: `within` is then infinite. */
 MINKRAY_API int minkray_scene_distance_to(minkray_scene scene, const minkray_bodies* shapes,
                                           size_t count, const minkray_near_options* options,
                                           minkray_scene_pair* nearest, const minkray_options* how);
@@ -274,7 +273,7 @@ MINKRAY_API int minkray_scene_ray_derivatives(minkray_scene scene, const minkray
  * have length 1; at a row they are as given. Joints that mimic others have zeros; without other
  * objects all numbers are zero. `is_ridge` is 1 if the derivative may be ambiguous, or another pair
  * is equally near at `row`. Each of `steps`, `jac` and `is_ridge` may be NULL. `jac_error` of the
- * options is for the joint values at `row` as rounded; infinite on ridges and for meshes. */
+ * options holds for the rounded joint values at `row`; infinite on ridges and for meshes. */
 MINKRAY_API int minkray_scene_clearance_derivatives(minkray_scene scene, uint32_t group,
                                                     const double* path, size_t rows, size_t numbers,
                                                     const minkray_clearance_options* options,

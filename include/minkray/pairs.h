@@ -27,8 +27,8 @@ struct Bodies {
   View<const Twist> twists = {};
 };
 
-/// Warm start: the final state of a query on a pair, for the next query on the same pair. A plain
-/// value; initially empty.
+/// Warm start: the final state of a query on a pair, used by the next query on the same pair. A
+/// plain value; initially empty.
 struct PairMemory {
   std::uint64_t words[8] = {};
 };
@@ -184,8 +184,8 @@ struct PairDerivativeError {
   DerivativeError a, b;
 };
 
-/// Owning list of a scene's pairs. (Not a std::vector, whose header is longer than all of
-/// minkray.h.)
+/// List of a scene's pairs, which owns them. Not a std::vector, whose header is longer than
+/// minkray.h.
 class ScenePairs {
  public:
   ScenePairs() = default;

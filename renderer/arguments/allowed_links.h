@@ -16,10 +16,11 @@ struct AllowedLinks {
   std::vector<std::string> pairs;
 
   void add_options(const Verb& verb) {
-    verb.add_option("--srdf", srdf, "SRDF file with pairs of links that may touch (MoveIt)")
+    verb.add_option("--srdf", srdf, "SRDF file (MoveIt) that lists pairs of links that may touch")
         .reads_file();
     verb.add_option("--allow", pairs,
-                    "Two links that may touch (links connected by a joint always may); repeatable")
+                    "Two links that may touch; repeatable\n"
+                    "Links connected by a joint may always touch")
         .takes("LINK,LINK")
         .one_value_each();
   }

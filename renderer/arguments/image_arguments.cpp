@@ -90,16 +90,16 @@ void ImageArguments::add_to(const Verb& verb, const std::string& suffix) {
   add_scene_option(verb, scene);
   add_other_files(verb, import);
   const Option verbose = add_import_options(verb, import);
-  add_output_option(verb, outputs, "the scene's name and " + suffix);
+  add_output_option(verb, outputs, "the scene's name + " + suffix);
   preview.add_to(verb);
-  verb.add_option("-r,--resolution", resolution, "Size in pixels, instead of the scene's")
+  verb.add_option("-r,--resolution", resolution, "Picture size in pixels (default: the scene's)")
       .takes("WxH");
   add_camera_file_option(verb, camera_file);
   verb.add_option("-s,--spp", samples, "Samples per pixel").between(1, 1 << 24).show_default();
   verb.add_option("-t,--threads", threads, "Threads; 0: one per core")
       .between(0, 1024)
       .show_default();
-  verb.add_option("--crop", crop, "Render just this region (ROI) of the picture, in pixels")
+  verb.add_option("--crop", crop, "Render only this region (ROI) of the picture, in pixels")
       .takes("X0,Y0,X1,Y1");
   // Takes the seed as text, since CLI11 clamps values that are too large.
   verb.add_option("--seed", seed, "Random seed (0 to 2^64 - 1)").takes("N").show_default();
@@ -128,15 +128,15 @@ Option add_scene_option(const Verb& verb, std::string& scene) {
 
 void add_camera_file_option(const Verb& verb, std::string& camera_file) {
   verb.add_option("--camera-file", camera_file,
-                  "Calibrated lens and size (JSON) for the scene's camera")
+                  "JSON file with a calibrated lens and picture size for the camera")
       .reads_file();
 }
 
 void add_output_option(const Verb& verb, std::vector<std::string>& outputs,
                        const std::string& otherwise) {
   verb.add_option("-o,--output", outputs,
-                  "Where to write the picture (" + image_extensions() + "); repeatable" +
-                      (otherwise.empty() ? "" : "; by default " + otherwise))
+                  "Picture to write (" + image_extensions() + "); repeatable" +
+                      (otherwise.empty() ? "" : "; default: " + otherwise))
       .required(otherwise.empty())
       .one_value_each()
       .writes_file();

@@ -7,7 +7,7 @@
 namespace minkray {
 
 std::string scene_argument() {
-  return "A scene file (JSON), the name of a scene that comes with Minkray, or a robot's file: " +
+  return "A scene file (JSON), the name of a built-in scene (such as showcase), or a robot file: " +
          foreign_formats();
 }
 
@@ -15,9 +15,9 @@ void add_other_files(const Verb& verb, ImportOptions& options) {
   // No names of built-in scenes here: they would be searched for before unknown options are
   // reported.
   verb.add_option("others", options.others,
-                  "More files for the same scene\n"
-                  "Camera and lights come from the first scene file; robot files do not count\n"
-                  "--joint, --joints and --keyframe apply to SCENE only")
+                  "More files to add to the scene\n"
+                  "Camera and lights come from the first file that is not a robot file\n"
+                  "--joint, --joints and --keyframe apply to the first file only")
       .reads_file();
 }
 
@@ -30,9 +30,9 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
                                : name == "all"     ? GeometryChoice::all
                                                    : GeometryChoice::visual;
           },
-          std::string("Shapes of robots to use (default ") +
+          std::string("Robot shapes to use (default ") +
               (options.geometry == GeometryChoice::visual ? "visual" : "collision") +
-              "):\nvisual: visual shapes; collision shapes if there are none\n"
+              "):\nvisual: visual shapes, or collision shapes if there are none\n"
               "collision: collision shapes\nall: both")
       .one_of({"visual", "collision", "all"})
       .group(group);
@@ -43,8 +43,9 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
                             : name == "components" ? MeshSplit::components
                                                    : MeshSplit::none;
           },
-          "Split of a mesh into convex hulls:\nnone: not split (default)\n"
-          "groups: one per named part of the file\ncomponents: one per connected part")
+          "How to split a mesh into convex hulls:\nnone: no split (default)\n"
+          "groups: one hull per named part of the file\n"
+          "components: one hull per connected part")
       .one_of({"none", "groups", "components"})
       .group(group);
   verb.add_option(
@@ -52,24 +53,25 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
           [&options](const std::string& name) {
             options.meshes = name == "exact" ? MeshChoice::exact : MeshChoice::hull;
           },
-          "Robot meshes (default: hull if --split is given; otherwise exact, but hull for "
-          "contacts of MJCF robots):\n"
-          "exact: triangles\nhull: convex hulls")
+          "How to represent robot meshes:\n"
+          "exact: triangles (default)\n"
+          "hull: convex hulls (default with --split, and for contacts of MJCF robots)")
       .one_of({"hull", "exact"})
       .group(group);
-  verb.add_option("--keyframe", options.keyframe, "Keyframe by name or number (MJCF)")
+  verb.add_option("--keyframe", options.keyframe, "Keyframe to use, by name or number (MJCF)")
       .takes("NAME")
       .group(group);
   verb.add_option("--joint", options.joints,
-                  "Joint value (rad or length; several, comma-separated, for ball and free "
-                  "joints); repeatable")
+                  "Joint value (rad or length); repeatable\n"
+                  "Ball and free joints take several values, comma-separated")
       .takes("NAME=VALUE")
       .one_value_each()
       .group(group);
   if (rows)
     verb.add_option("--joints", options.joint_rows,
-                    "Joint values: CSV (names, then values) or JSON rows; optional \"time\" (s)\n"
-                    "Several rows animate the robot; without times: 24 rows per second")
+                    "File of joint values: CSV (a row of names, then rows of values) or JSON\n"
+                    "Several rows animate the robot, by default at 24 rows per second; "
+                    "a column \"time\" (s) sets other times")
         .reads_file()
         .group(group);
   verb.add_option("--package-dir,--model-dir", options.package_dirs,
@@ -78,13 +80,13 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
       .one_value_each()
       .group(group);
   verb.add_flag("--lenient", options.lenient,
-                "Skip invalid shapes, materials; minkray info lists them")
+                "Skip invalid shapes and materials; minkray info lists them")
       .group(group);
   verb.add_flag("--skip-missing-meshes", options.skip_missing_meshes,
-                "Skip missing mesh files; info reports how many")
+                "Skip missing mesh files; minkray info reports their number")
       .group(group);
   return verb.add_flag("-v,--verbose", options.verbose,
-                       "Report steps and their times; list all missing meshes");
+                       "Report each step and its time; list all missing meshes");
 }
 
 }  // namespace minkray

@@ -79,10 +79,8 @@ TerminalGraphics best_way() {
 void PreviewArguments::add_to(const Verb& verb) {
   std::vector<std::string> names{"auto"};
   for (const Way& way : ways) names.emplace_back(way.name);
-  verb.add_flag(
-          "--preview{auto}", preview,
-          "Show the picture in the terminal as well; --preview=kitty, sixel or blocks chooses "
-          "how")
+  verb.add_flag("--preview{auto}", preview,
+                "Also show the picture in the terminal (auto: the best graphics that it supports)")
       .one_of(names);
 }
 

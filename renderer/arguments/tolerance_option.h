@@ -8,8 +8,10 @@
 namespace minkray {
 
 inline void add_tolerance(const Verb& verb, double& tolerance) {
-  verb.add_option("--tolerance", tolerance,
-                  "Largest gap between the bounds of a distance, relative to the shapes' sizes")
+  verb.add_option(
+          "--tolerance", tolerance,
+          "Maximum gap between lower and upper bound of a distance, relative to the shapes' "
+          "sizes")
       .between(1e-14, 1.0)
       .show_default();
 }

@@ -27,9 +27,9 @@ constexpr const char* first_page =
     "\n"
     "  minkray render shape-zoo          a picture of every shape: shape-zoo.png\n"
     "  minkray heatmap showcase          the cost of each pixel: showcase-heatmap.png\n"
-    "  minkray info --shapes             what a scene's shapes may be\n"
+    "  minkray info --shapes             the shapes that a scene can contain\n"
     "\n"
-    "minkray help lists all commands, minkray help COMMAND shows what one takes.\n";
+    "`minkray help` lists all commands; `minkray help COMMAND` describes one.\n";
 
 /// Reports unknown commands and options before a command; the parser only reports that a command is
 /// required.
@@ -61,9 +61,9 @@ ExitCode run(int argc, char** argv) {
     return ExitCode::done;
   }
   parser.set_footer(
-      "Exit codes: 0 done, 1 a comparison or certificate failed (verify: collides),\n"
+      "Exit codes: 0 done, 1 a comparison or certificate failed (verify: collision),\n"
       "2 wrong usage, 3 bad scene or input, 4 could not write, 6 verify: undecided.\n"
-      "Results are on stdout, all else on stderr.");
+      "Results go to stdout, everything else to stderr.");
   ExitCode exit_code = ExitCode::done;
   const std::span<const minkray::VerbHere> here = minkray::verbs_here();
   for (const minkray::VerbRow& verb : minkray::verbs) {

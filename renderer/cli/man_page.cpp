@@ -58,9 +58,9 @@ std::string entry(const OptionDescription& option) {
 
 constexpr const char* exit_status =
     ".SH EXIT STATUS\n"
-    "0 done, 1 a comparison or certificate failed (verify: collides), 2 wrong usage, 3 bad\n"
-    "scene or input, 4 could not write, 6 verify: undecided. Results are on standard output,\n"
-    "everything else is on standard error.\n";
+    "0 done, 1 a comparison or certificate failed (verify: collision), 2 wrong usage, 3 bad\n"
+    "scene or input, 4 could not write, 6 verify: undecided. Results go to standard output,\n"
+    "everything else to standard error.\n";
 
 }  // namespace
 

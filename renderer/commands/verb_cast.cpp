@@ -259,7 +259,9 @@ ExitCode cast(const CastVerbOptions& options) {
 void add_cast(Parser& parser, ExitCode& exit_code) {
   const Verb verb = parser.add_verb("cast");
   const auto options = std::make_shared<CastVerbOptions>();
-  verb.add_option("file", options->file, "A file of queries, - for stdin").required().reads_file();
+  verb.add_option("file", options->file, "File of queries, one JSON object per line; - for stdin")
+      .required()
+      .reads_file();
   verb.add_option("--precision", options->precision, "Precision of casts")
       .one_of({"float", "double"})
       .show_default();
@@ -271,11 +273,11 @@ void add_cast(Parser& parser, ExitCode& exit_code) {
   verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")
       .between(0, 1024)
       .show_default();
-  verb.add_flag("--trace", options->trace, "Add every iteration to the results");
+  verb.add_flag("--trace", options->trace, "Add every solver iteration to the results");
   verb.add_flag("--certify", options->certify,
-                "Prove every cast's result; exit with 1 if a proof fails");
+                "Prove the result of every cast; exit with 1 if a proof fails");
   verb.add_flag("--check", options->check,
-                "Compare with each query's \"expect\"; exit with 1 on any difference");
+                "Compare each result with \"expect\" of its query; exit with 1 on any difference");
   verb.on_call([options, &exit_code] {
     with_threads(options->threads, [&] { exit_code = cast(*options); });
   });

@@ -139,10 +139,13 @@ void add_clearance(Parser& parser, ExitCode& exit_code) {
   const Verb verb = parser.add_verb("clearance");
   const auto options = std::make_shared<ClearanceVerbOptions>();
   options->files = &verb.files();
-  verb.add_option("robot", options->robot, foreign_formats()).required().reads_file();
-  verb.add_option("--path", options->import.joint_rows,
-                  "Joint path, linear between rows: CSV of names, then values\n"
-                  "Optional column \"time\"\nWithout --path the robot does not move")
+  verb.add_option("robot", options->robot, "Robot file: " + foreign_formats())
+      .required()
+      .reads_file();
+  verb.add_option(
+          "--path", options->import.joint_rows,
+          "Joint path (CSV): a row of joint names, then rows of values; linear between rows\n"
+          "Optional column \"time\" (s)\nWithout --path the robot does not move")
       .reads_file();
   verb.add_option("--obstacle", options->obstacles,
                   "Obstacle at rest: a scene or robot file; repeatable")
@@ -152,17 +155,18 @@ void add_clearance(Parser& parser, ExitCode& exit_code) {
   verb.add_flag("--only-obstacles", options->only_obstacles,
                 "Check obstacles only, not self-collision");
   verb.add_option("--tolerance", options->clearance.tolerance,
-                  "Largest gap between the bounds of the clearance, relative to it")
+                  "Maximum gap between lower and upper bound of the clearance, relative to the "
+                  "clearance")
       .between(1e-9, 1.0)
       .show_default();
   verb.add_option("--at-least", options->at_least,
                   "Exit with 1 unless the proven clearance is at least this")
       .takes("DISTANCE");
   verb.add_option("--steps", options->steps,
-                  "Write the least clearance of each step from row to row (CSV)")
+                  "CSV file to write: minimum clearance of each step from one row to the next")
       .writes_file();
   verb.add_option("--sweep", options->sweep,
-                  "Scene file to write (.json): bodies that enclose the swept links")
+                  "Scene file to write (.json): bodies that enclose the links' motion")
       .writes_file();
   add_import_options(verb, options->import, false);
   verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")

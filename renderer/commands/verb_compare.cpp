@@ -20,16 +20,18 @@ void add_compare(Parser& parser, ExitCode& exit_code) {
   add_scene_option(verb, image.scene);
   add_import_options(verb, image.import);
   verb.add_option("--rays", options->rays,
-                  "Rays per object; default: 100000, fewer above 200 objects")
+                  "Rays per object; default: 100000 (fewer above 200 objects)")
       .between(1, 1 << 30);
   verb.add_option("--directions", options->directions,
-                  "Initial directions of meshes; default: 500, 100 above 500 objects")
+                  "Support directions of the first meshes; default: 500 (100 above 500 objects)")
       .between(20, 1 << 20);
-  verb.add_option("-o,--output", image.outputs,
-                  "Picture of the distance between the meshes, violations marked")
+  verb.add_option(
+          "-o,--output", image.outputs,
+          "Picture to write: the distance between inner and outer mesh; violations are marked")
       .one_value_each()
       .writes_file();
-  verb.add_option("-r,--resolution", image.resolution, "Size in pixels, instead of the scene's")
+  verb.add_option("-r,--resolution", image.resolution,
+                  "Picture size in pixels (default: the scene's)")
       .takes("WxH");
   verb.add_option("-t,--threads", image.threads, "Threads; 0: one per core")
       .between(0, 1024)

@@ -284,8 +284,8 @@ void add_distance(Parser& parser, ExitCode&) {
   const auto options = std::make_shared<DistanceVerbOptions>();
   options->command_files = &verb.files();
   verb.add_option("files", options->files,
-                  "Two shapes (JSON); or a scene or robot, alone or with other files to measure "
-                  "against. Scene or robot: " +
+                  "Two shape files (JSON); or a scene or robot file, alone or followed by files to "
+                  "measure against\nScene or robot: " +
                       scene_argument())
       .required()
       .reads_file();
@@ -296,12 +296,12 @@ void add_distance(Parser& parser, ExitCode&) {
                 "Check obstacles only, not self-collision");
   options->allowed.add_options(verb);
   verb.add_flag("--json", options->json, "Print JSON");
-  verb.add_option("-o,--output", options->output, "A CSV file to write instead of the table")
+  verb.add_option("-o,--output", options->output, "CSV file to write instead of printing the table")
       .writes_file();
   verb.add_option("--at-most", options->at_most,
-                  "Beyond this distance, return a lower bound only (two shapes only)");
+                  "Above this distance, return only a lower bound (for two shapes)");
   verb.add_flag("--only-sign", options->only_sign,
-                "Only decide if the shapes overlap (two shapes only)");
+                "Only decide whether the shapes overlap (for two shapes)");
   add_import_options(verb, options->import, false);
   verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")
       .between(0, 1024)

@@ -57,11 +57,12 @@ void add_distance_2d(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("distance-2d");
   const auto options = std::make_shared<Distance2DVerbOptions>();
   options->files = &verb.files();
-  verb.add_option("file", options->file,
-                  "JSON with shapes \"a\" and \"b\"; solids are projected to z = 0")
+  verb.add_option(
+          "file", options->file,
+          "JSON file with shapes \"a\" and \"b\"; solids are projected onto the plane z = 0")
       .required()
       .reads_file();
-  verb.add_option("-o,--output", options->out, "The SVG file").required().writes_file();
+  verb.add_option("-o,--output", options->out, "SVG file to write").required().writes_file();
   verb.add_option("--subalgorithm", options->subalgorithm, "Distance subalgorithm of GJK")
       .one_of(subalgorithm_names())
       .show_default();

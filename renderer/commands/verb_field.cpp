@@ -107,9 +107,10 @@ void add_field(Parser& parser, ExitCode&) {
   options->files = &verb.files();
   add_scene_option(verb, options->scene);
   add_import_options(verb, options->import);
-  add_output_option(verb, options->outputs, std::string("the scene's name and ") + field_suffix);
+  add_output_option(verb, options->outputs, std::string("the scene's name + ") + field_suffix);
   options->preview.add_to(verb);
-  verb.add_option("--through", options->through, "Centre of the picture (default: the scene's)")
+  verb.add_option("--through", options->through,
+                  "Point at the centre of the picture (default: the scene's centre)")
       .takes("X,Y,Z");
   verb.add_option("--normal", options->normal, "Normal of the plane, towards the viewer")
       .takes("X,Y,Z")
@@ -118,9 +119,9 @@ void add_field(Parser& parser, ExitCode&) {
                   "Width of the picture in scene units; default: shows all objects")
       .between(0.0, 1e300);
   verb.add_option("--probe", options->probe,
-                  "File of a shape to move over the plane, instead of a point")
+                  "Shape file (JSON): move this shape over the plane, instead of a point")
       .reads_file();
-  verb.add_option("-r,--resolution", options->resolution, "Size in pixels")
+  verb.add_option("-r,--resolution", options->resolution, "Picture size in pixels")
       .takes("WxH")
       .show_default();
   add_tolerance(verb, options->tolerance);

@@ -25,17 +25,17 @@ void add_generate(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("generate");
   const auto options = std::make_shared<GenerateVerbOptions>();
   std::vector<std::string> names;
-  std::string docs;
+  std::string docs = "Kind of scene:";
   for (const GeneratedKind& kind : generated_kinds) {
     names.emplace_back(kind.name);
-    docs += (docs.empty() ? "" : "; ") + std::string(kind.name) + ": " + std::string(kind.doc);
+    docs += "\n" + std::string(kind.name) + ": " + std::string(kind.doc);
   }
   verb.add_option("kind", options->kind, docs).required().one_of(names);
   verb.add_option("-n,--count", options->count, "Number of shapes")
       .between(std::size_t{1}, most_instances)
       .show_default();
   verb.add_option("-o,--output", options->out,
-                  "Scene file (JSON); many poses go to a .f32 file next to it")
+                  "Scene file to write (.json); many poses are written to a .f32 file next to it")
       .required()
       .writes_file();
   verb.add_option("--seed", options->seed, "Random seed (0 to 2^64 - 1)").takes("N").show_default();

@@ -99,7 +99,7 @@ void add_heatmap(Parser& parser, ExitCode&) {
       .show_default();
   const Option solver = add_solver_option(verb, options->image.solver);
   verb.add_option("--side-by-side", options->side_by_side,
-                  "Solvers to show side by side on one scale, such as paper,auto")
+                  "Solvers to show side by side with one colour scale, such as paper,auto")
       .takes("NAMES")
       .excludes(solver);
   verb.on_call([options] { with_threads(options->image.threads, [&] { run(*options); }); });

@@ -43,13 +43,15 @@ void add_import(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("import");
   const auto options = std::make_shared<ImportVerbOptions>();
   options->files = &verb.files();
-  verb.add_option("file", options->file, foreign_formats()).required().reads_file();
-  verb.add_option("-o,--output", options->output, "The scene file to write (.json)")
+  verb.add_option("file", options->file, "Robot file: " + foreign_formats())
+      .required()
+      .reads_file();
+  verb.add_option("-o,--output", options->output, "Scene file to write (.json)")
       .required()
       .writes_file();
   add_import_options(verb, options->import);
   verb.add_option("-r,--resolution", options->resolution,
-                  "Picture size for framing the camera (default 960x720)")
+                  "Picture size for placing the camera (default 960x720)")
       .takes("WxH");
   verb.add_flag("-q,--quiet", options->quiet, "No report");
   verb.on_call([options] { import(*options); });

@@ -22,10 +22,11 @@ void add_inspect(Parser& parser, ExitCode& exit_code) {
   add_import_options(verb, image.import);
   const Option output =
       verb.add_option("-o,--output", image.outputs,
-                      "The HTML file; by default the scene's name and -inspect.html")
+                      "HTML file to write; default: the scene's name + -inspect.html")
           .one_value_each()
           .writes_file();
-  verb.add_option("-r,--resolution", image.resolution, "Size in pixels, instead of the scene's")
+  verb.add_option("-r,--resolution", image.resolution,
+                  "Picture size in pixels (default: the scene's)")
       .takes("WxH");
   add_camera_file_option(verb, image.camera_file);
   verb.add_option("-s,--spp", image.samples, "Samples per pixel of the picture")
@@ -45,7 +46,7 @@ void add_inspect(Parser& parser, ExitCode& exit_code) {
                   "Maximum page size (MB); 0: automatic (6, more for large pictures)")
       .between(0.0, 2000.0);
   verb.add_flag("--serve", options->serve,
-                "Serve the page at 127.0.0.1 until Ctrl-C; it can then query any ray")
+                "Serve the page at 127.0.0.1 until Ctrl-C; a served page can query any ray")
       .excludes(output);
   verb.add_option("--port", options->port, "Port of --serve; 0: any free port")
       .between(0, 65535)

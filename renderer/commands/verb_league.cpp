@@ -28,25 +28,26 @@ void add_league(Parser& parser, ExitCode&) {
   const auto words = std::make_shared<LeagueWords>();
   verb.add_option("--cases", words->cases, "Files of cases (default: all of tests/cases)")
       .reads_file();
-  verb.add_option("--only", words->only, "Only cases whose names contain this").takes("NAME");
+  verb.add_option("--only", words->only, "Run only cases whose names contain this").takes("NAME");
   verb.add_option("--solvers", words->solvers,
                   "Solvers to run, comma-separated (default: all available)")
       .takes("NAMES");
-  verb.add_flag("--npm", words->npm, "Also MuJoCo 3, Rapier and Jolt, in Node");
+  verb.add_flag("--npm", words->npm, "Also run MuJoCo 3, Rapier and Jolt (in Node.js)");
   verb.add_option("--exec", words->commands,
                   "Add a solver: a command that works like `minkray cast -`")
       .takes("COMMAND")
       .one_value_each();
   verb.add_option("--random", words->random,
-                  "Random rays per family and shape, in addition to the cases")
+                  "Random rays per kind of ray and shape, in addition to the cases")
       .between(0, 100000)
       .show_default();
   verb.add_option("--seed", words->seed, "Random seed of --random").show_default();
   verb.add_option("--limit", words->limit, "Time limit per query in seconds")
       .between(0.01, 3600.0)
       .show_default();
-  verb.add_option("-o,--html", words->html, "Report (HTML): cases by solver").writes_file();
-  verb.add_option("--json", words->json, "All results and verdicts (JSON)").writes_file();
+  verb.add_option("-o,--html", words->html, "HTML report to write: cases by solver").writes_file();
+  verb.add_option("--json", words->json, "JSON file to write: all results and verdicts")
+      .writes_file();
   verb.add_flag("-q,--quiet", words->quiet, "No progress");
   verb.on_call([words] { run_beside("league", "minkray-league", own_words()); });
 }

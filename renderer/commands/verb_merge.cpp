@@ -46,7 +46,7 @@ void run(const MergeVerbOptions& options) {
 void add_merge(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("merge");
   const auto options = std::make_shared<MergeVerbOptions>();
-  verb.add_option("parts", options->part_files, "The part files (.exr), in any order")
+  verb.add_option("parts", options->part_files, "Part files (.exr), in any order")
       .required()
       .reads_file();
   add_output_option(verb, options->outputs);
@@ -56,9 +56,9 @@ void add_merge(Parser& parser, ExitCode&) {
       .one_of(tone_map_names())
       .show_default();
   verb.add_flag("--allow-partial", options->allow_partial,
-                "Missing tiles are black, missing samples are ignored");
+                "Accept missing parts: missing tiles are black, missing samples are ignored");
   verb.add_flag("--times", options->times,
-                "Print each share's name, CPU time (s) and file size (bytes)");
+                "Print name, CPU time (s) and file size (bytes) of each part");
   verb.on_call([options] { run(*options); });
 }
 

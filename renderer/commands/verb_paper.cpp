@@ -85,12 +85,12 @@ void add_paper(Parser& parser, ExitCode&) {
   const auto options = std::make_shared<PaperVerbOptions>();
   std::vector<std::string> ids;
   for (const PaperClaim& claim : claims) ids.emplace_back(claim.id);
-  verb.add_option("--only", options->only, "One claim").one_of(ids);
-  verb.add_option("--out", options->out, "A folder for the plots (SVG)").takes_folder();
-  verb.add_option("--rays", options->claim.rays, "Random rays per figure")
+  verb.add_option("--only", options->only, "Rerun only this experiment").one_of(ids);
+  verb.add_option("--out", options->out, "Folder to write plots to (SVG)").takes_folder();
+  verb.add_option("--rays", options->claim.rays, "Random rays per measured value")
       .between(100, 100000000)
       .show_default();
-  verb.add_option("--seed", options->claim.seed, "Seed of all random numbers").show_default();
+  verb.add_option("--seed", options->claim.seed, "Random seed").show_default();
   verb.on_call([options] { paper(*options); });
 }
 

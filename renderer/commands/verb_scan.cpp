@@ -168,26 +168,28 @@ void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
   for (const LidarModel& model : lidar_models())
     models += (models.empty() ? "" : ", ") + std::string(model.name);
   verb.add_option("--rays", options.rays,
-                  "A .npy array of (N, 6), origin and direction, or (N, 7) with t_max")
+                  "File of rays: .npy array of shape (N, 6), origin and direction, or (N, 7), "
+                  "origin, direction and t_max")
       .group(heading)
       .reads_file();
   verb.add_option("--pattern", options.pattern,
-                  "spinning:CHANNELSxSTEPS[:LOWEST,HIGHEST[:FROM,TO]] (elevations, azimuths in "
-                  "degrees); or a lidar: " +
+                  "Scan pattern:\n"
+                  "spinning:CHANNELSxSTEPS[:LOWEST,HIGHEST[:FROM,TO]]\n"
+                  "(lowest and highest elevation, first and last azimuth, in degrees)\n"
+                  "or a lidar model: " +
                       models +
-                      "; or a file: .csv (time, azimuth, zenith), .json (elevations), .mat3x4f")
+                      "\nor a file: .csv (time, azimuth, zenith), .json (elevations), .mat3x4f")
       .group(heading)
       .reads_file()
       .takes("PATTERN");
   verb.add_option("--pinhole", options.pinhole,
-                  "A JSON file of a calibrated camera: fx, fy, cx, cy, width, height, distortion")
+                  "JSON file of a calibrated camera: fx, fy, cx, cy, width, height, distortion")
       .group(heading)
       .reads_file();
-  verb.add_option("--pose", options.pose, "Pose of the sensor")
+  verb.add_option("--pose", options.pose, "Position and rotation (quaternion) of the sensor")
       .group(heading)
       .takes("X,Y,Z[,QX,QY,QZ,QW]");
-  verb.add_option("--on", options.mount,
-                  "Link (of a robot) or object that the sensor is mounted on and moves with")
+  verb.add_option("--on", options.mount, "Robot link or object that carries the sensor")
       .group(heading)
       .takes("NAME");
   verb.add_option("--path", options.path,
@@ -197,7 +199,7 @@ void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
   verb.add_option("--start", options.scan.start, "Start of the sweep, in seconds")
       .group(heading)
       .between(-1e9, 1e9);
-  verb.add_option("--sweep", options.sweep, "Seconds per turn of a lidar")
+  verb.add_option("--sweep", options.sweep, "Seconds per revolution of a lidar")
       .group(heading)
       .between(0.0, 1e9)
       .show_default();
@@ -205,11 +207,13 @@ void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
 
 void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
   const std::string heading = "Measurement";
-  verb.add_option("--range", options.range, "Least and greatest range, in the scene's unit")
+  verb.add_option("--range", options.range, "Minimum and maximum range (scene units)")
       .group(heading)
       .takes("MIN,MAX");
-  verb.add_option("--noise", options.noise,
-                  "Standard deviations: of range, of angle (rad), of range per unit distance")
+  verb.add_option(
+          "--noise", options.noise,
+          "Standard deviations of the range, of the angle (rad), and of the range per unit of "
+          "distance")
       .group(heading)
       .takes("RANGE[,ANGLE[,PER_LENGTH]]");
   verb.add_option("--dropout", options.scan.dropout, "Probability that a ray returns nothing")
@@ -220,8 +224,8 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .takes("N")
       .show_default();
   verb.add_option("--returns", options.scan.returns,
-                  "Echoes per ray: one for each body it enters; with --divergence, one for each "
-                  "distinct hit of its beam")
+                  "Maximum number of echoes per ray: one for each body that the ray enters\n"
+                  "With --divergence: one for each distinct hit of the beam")
       .group(heading)
       .between(1, 64)
       .show_default();
@@ -231,8 +235,9 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .group(heading)
       .one_of(echo_orders)
       .show_default();
-  verb.add_option("--divergence", options.scan.divergence,
-                  "Full beam angle (rad). If set, echoes are the first hits of --beam-rays rays")
+  verb.add_option(
+          "--divergence", options.scan.divergence,
+          "Full angle of the beam (rad); echoes are then the first hits of --beam-rays rays")
       .group(heading)
       .between(0.0, 1.0);
   verb.add_option("--beam-rays", options.scan.beam_rays, "Rays per beam")
@@ -240,7 +245,7 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .between(1, 4096)
       .show_default();
   verb.add_option("--resolution", options.scan.resolution,
-                  "Least distance between echoes of a beam (scene units)")
+                  "Minimum distance between two echoes of a beam (scene units)")
       .group(heading)
       .between(0.0, 1e9)
       .show_default();
@@ -263,8 +268,7 @@ void add_scan(Parser& parser, ExitCode&) {
       .required()
       .one_value_each()
       .writes_file();
-  verb.add_option("--ids", options->table,
-                  "JSON file to write, with the number and name of each object")
+  verb.add_option("--ids", options->table, "JSON file to write: number and name of each object")
       .writes_file();
   verb.add_flag("--half", options->has_halfs, "Write .exr with 16-bit floats");
   verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")

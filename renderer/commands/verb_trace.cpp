@@ -150,17 +150,18 @@ void add_trace(Parser& parser, ExitCode&) {
       .required()
       .values(2, ',');
   verb.add_option("-r,--resolution", options->resolution,
-                  "Size of the picture in pixels (default: the scene's)")
+                  "Picture size in pixels (default: the scene's)")
       .takes("WxH");
   add_camera_file_option(verb, options->camera_file);
-  verb.add_option("--object", options->object, "Name of the object (default: the one that is hit)")
+  verb.add_option("--object", options->object,
+                  "Name of the object to cast at (default: the object that the ray hits)")
       .takes("NAME");
-  verb.add_option("--precision", options->precision, "Numbers of the cast")
+  verb.add_option("--precision", options->precision, "Floating-point precision of the cast")
       .one_of({"float", "double"})
       .show_default();
   add_solver_option(verb, options->solver);
   verb.add_flag("--json", options->json, "Print JSON");
-  verb.add_option("--svg", options->svg, "Also draw the cast into this file (SVG)").writes_file();
+  verb.add_option("--svg", options->svg, "SVG file to write: a drawing of the cast").writes_file();
   verb.on_call([options] {
     if (options->precision == "float")
       trace<float>(*options);

@@ -250,10 +250,13 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
   const auto options = std::make_shared<VerifyOptions>();
   options->files = &verb.files();
   VerifyInputs& inputs = options->inputs;
-  verb.add_option("--robot", inputs.robot, "Robot: " + foreign_formats()).required().reads_file();
+  verb.add_option("--robot", inputs.robot, "Robot file: " + foreign_formats())
+      .required()
+      .reads_file();
   verb.add_option(
           "--trajectory", options->plans,
-          "JointTrajectory, RobotTrajectory, MoveIt request (YAML, JSON), CSV, NPY; repeatable")
+          "Planned motion: JointTrajectory, RobotTrajectory or MoveIt request (YAML, JSON), CSV "
+          "or NPY; repeatable")
       .one_value_each()
       .reads_file();
   verb.add_option("-o,--output", options->outputs,
@@ -265,7 +268,8 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
       .one_value_each()
       .reads_file();
   inputs.allowed.add_options(verb);
-  verb.add_option("--state", inputs.state, "SRDF state for joints not named by the plan")
+  verb.add_option("--state", inputs.state,
+                  "SRDF state with values for joints that the plan does not name")
       .takes("NAME");
   verb.add_option("--group", inputs.group,
                   "SRDF group whose joints are the columns of an .npy file")
@@ -281,12 +285,13 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
   verb.add_flag("--only-obstacles", inputs.cell.only_obstacles,
                 "Check obstacles only, not self-collision");
   verb.add_option("--tolerance", options->referee.tolerance,
-                  "Largest gap between the bounds of the least clearance, relative to it")
+                  "Maximum gap between lower and upper bound of the clearance, relative to the "
+                  "clearance")
       .between(1e-9, 1.0)
       .show_default();
   verb.add_option("--budget", options->budget,
-                  "Most distance queries for a pair of bodies in one step (from a row of the plan "
-                  "to the next); if more are needed: `undecided`")
+                  "Maximum distance queries per pair of bodies and step (from one row of the plan "
+                  "to the next)\nIf more are needed, the verdict is `undecided`")
       .between(std::size_t{1}, std::size_t{1'000'000'000})
       .show_default();
   verb.add_flag("--serve", options->serve,
@@ -295,7 +300,7 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
       .between(1, 1 << 20)
       .show_default();
   verb.add_flag("--json", options->json, "Print one JSON object per plan");
-  verb.add_flag("--table", options->table, "Print the least clearance of each step as CSV");
+  verb.add_flag("--table", options->table, "Print the minimum clearance of each step as CSV");
   add_import_options(verb, inputs.import, false);
   verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")
       .between(0, 1024)

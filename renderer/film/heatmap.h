@@ -24,13 +24,13 @@ struct HeatChannelDescription {
 
 inline constexpr std::array heat_channels = {
     HeatChannelDescription{HeatChannel::iterations, "iterations", "solver iterations per ray",
-                           "iterations of all casts"},
+                           "solver iterations, summed over all casts of the ray"},
     HeatChannelDescription{HeatChannel::supports, "supports", "support points per ray",
-                           "support points of all casts"},
+                           "support points, summed over all casts of the ray"},
     HeatChannelDescription{HeatChannel::nodes, "nodes", "nodes visited per ray",
                            "visited BVH nodes (up to 8 boxes each)"},
     HeatChannelDescription{HeatChannel::path, "path", "last stage needed by any cast",
-                           "last stage needed by any cast: 0 filter, 1 model, 2 gjk, 3 finer"},
+                           "last stage that any cast needed: 0 filter, 1 model, 2 gjk, 3 finer"},
     HeatChannelDescription{HeatChannel::status, "status", "status of the cast",
                            "hit, miss, inside, or exhausted if any cast did not converge"},
 };

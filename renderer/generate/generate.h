@@ -20,7 +20,7 @@ inline constexpr GeneratedKind generated_kinds[] = {
     {"ellipsoids", "a packing of rotated ellipsoids without overlap"},
     {"hulls", "a grid of different convex hulls"},
     {"capsules", "random fibres"},
-    {"tumbling", "bodies of many shapes that fly apart, with two seconds of keys"},
+    {"tumbling", "bodies of many shapes that fly apart, animated for two seconds"},
 };
 
 struct GenerateOptions {

@@ -38,19 +38,20 @@ void RenderArguments::add_to(const Verb& verb) {
   }
   verb.add_option("--integrator", integrator, kinds).one_of(names).show_default();
   verb.add_option("--max-depth", max_depth,
-                  "Maximum bounces of --integrator path; 0: emissive objects only")
+                  "Maximum bounces for --integrator path; 0: emissive objects only")
       .between(0, 1000)
       .show_default();
   verb.add_option("--bounces", bounces,
-                  "Diffuse bounces of --integrator ambient; 0: ambient occlusion")
+                  "Diffuse bounces for --integrator ambient; 0: ambient occlusion")
       .between(0, 64)
       .show_default();
   verb.add_option("--clamp", clamp,
-                  "Clamp indirect light (path): fewer fireflies, slightly darker; 0: off")
+                  "Limit of indirect light for --integrator path: fewer fireflies, slightly "
+                  "darker picture; 0: off")
       .between(0.0, 1e30)
       .show_default();
   verb.add_option("--noise", noise,
-                  "Adaptive sampling: relative error at which a pixel stops; 0: off")
+                  "Adaptive sampling: relative error at which sampling of a pixel stops; 0: off")
       .between(0.0, 1.0)
       .show_default();
   verb.add_flag("--denoise", denoise, "Denoise (best at few samples per pixel)");
@@ -60,7 +61,7 @@ void RenderArguments::add_to(const Verb& verb) {
     maps += "\n" + std::string(map.name) + ": " + std::string(map.doc);
   verb.add_option("--tonemap", tone_map, maps).one_of(tone_map_names()).show_default();
   verb.add_option("--ray-group", ray_group,
-                  "Camera rays traced together (does not change the picture)")
+                  "Number of camera rays traced together (does not change the picture)")
       .between(1, most_in_ray_group)
       .show_default()
       .group(research_group);
@@ -78,8 +79,8 @@ void RenderArguments::add_to(const Verb& verb) {
     channels += "\n" + std::string(channel.name) + ": " + std::string(channel.doc);
   verb.add_option("--aov", aov,
                   "Extra EXR channels (AOVs), comma-separated, or all\n"
-                  "direct, indirect, variance and cryptomatte use all samples, the others one "
-                  "unfiltered ray per pixel:" +
+                  "direct, indirect, variance and cryptomatte use all samples; the others use "
+                  "one unfiltered ray per pixel:" +
                       channels)
       .takes("NAMES");
   verb.add_option("--tile", tile, "Render tile I of N, for minkray merge")
@@ -89,7 +90,8 @@ void RenderArguments::add_to(const Verb& verb) {
                   "Render share I of N of each pixel's samples, for minkray merge")
       .takes("I/N")
       .group(several_machines);
-  verb.add_option("--tiles", tiles, "Tiles under mpirun; default: one per about 64 x 64 pixels")
+  verb.add_option("--tiles", tiles,
+                  "Number of tiles under mpirun; default: tiles of about 64 x 64 pixels")
       .between(1, 999999)
       .group(several_machines);
   verb.add_option("--checkpoint", checkpoint_seconds,
@@ -98,19 +100,22 @@ void RenderArguments::add_to(const Verb& verb) {
       .show_default();
   verb.add_flag("--resume", resume, "Resume from the checkpoint, if there is one");
   verb.add_flag("--progressive", progressive,
-                "Render in passes of 1, 2, 4 ... samples per pixel; show each pass");
-  verb.add_option("--tev", tev, "Show the picture in tev while rendering (default port 14158)")
+                "Render in passes of 1, 2, 4 ... samples per pixel and show each pass");
+  verb.add_option("--tev", tev,
+                  "Show the picture in the viewer tev while rendering (default port 14158)")
       .takes("HOST:PORT");
   verb.add_option("--frames", frames,
-                  "Render these frames; #### in -o becomes the frame number\n"
-                  "--resume skips frames listed in NAME-####.png.frames (written by --frames)")
+                  "Frames to render, such as 0..47; #### in -o becomes the frame number\n"
+                  "--resume skips the frames listed in NAME-####.png.frames")
       .takes("A..B");
   verb.add_option("--rate", rate, "Frames per second (fps)").between(1e-6, 1e6).show_default();
-  verb.add_option("--contact-sheet", contact_sheet, "Picture with thumbnails of all --frames")
+  verb.add_option("--contact-sheet", contact_sheet,
+                  "Picture to write, with thumbnails of all --frames")
       .writes_file();
-  verb.add_flag("--stats", stats, "Print rays, speed, work and memory; as JSON: --stats=json")
+  verb.add_flag("--stats", stats,
+                "Print statistics: rays, speed, work and memory; --stats=json prints JSON")
       .group(research_group);
-  verb.add_flag("--certify", certify, "Prove every ray's result; exit with 1 if a proof fails")
+  verb.add_flag("--certify", certify, "Prove the result of every ray; exit with 1 if a proof fails")
       .group(research_group);
 }
 

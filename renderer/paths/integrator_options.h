@@ -21,11 +21,11 @@ struct IntegratorDescription {
 inline constexpr std::array integrators = {
     IntegratorDescription{IntegratorKind::automatic, "auto",
                           "path if the scene has lights or materials that need it, else ambient"},
-    IntegratorDescription{IntegratorKind::path, "path", "all light by path tracing; unbiased"},
+    IntegratorDescription{IntegratorKind::path, "path", "path tracing of all light; unbiased"},
     IntegratorDescription{IntegratorKind::direct, "direct",
                           "direct light from lights and emissive objects"},
     IntegratorDescription{IntegratorKind::ambient, "ambient",
-                          "direct and diffuse light (--bounces), then ambient occlusion"},
+                          "direct light and diffuse bounces (--bounces), then ambient occlusion"},
     IntegratorDescription{IntegratorKind::normals, "normals", "surface normals as colours"},
 };
 

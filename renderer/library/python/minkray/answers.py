@@ -67,7 +67,7 @@ class Hits(_Arrays):
     Attributes
     ----------
     t : float64
-        Ray parameter, in lengths of the direction; inf for a miss.
+        Ray parameter: the hit point is ``origin + t * direction``. inf for a miss.
     distance : float64
         Distance from the origin, in the world's unit; inf for a miss.
     t_lo, t_hi : float64
@@ -120,7 +120,7 @@ class Proofs(_Arrays):
     checked : uint32
         Number of objects with a proof.
     complaint : list of str
-        The part of the proof that fails; empty if it holds.
+        The part of the proof that fails; empty if the proof holds.
     """
 
     def __repr__(self):
@@ -143,12 +143,12 @@ class Clearance(_Arrays):
         Nearest points at `row`, in the world, and the direction from a to b.
     jac, is_ridge : (K, J) float64, (K,) bool
         With ``jac=True``: the derivative of the distance with respect to the joint values at `row`, and
-        True where it may be ambiguous, for example if two pairs are equally near. The derivatives with
-        respect to the two rows around `row` are ``(1 - s) * jac`` and ``s * jac``, with ``s`` the
-        fraction of `row`.
+        True where it may be ambiguous, for example if two pairs are equally near. If ``s`` is the
+        fractional part of `row`, the derivatives with respect to the rows before and after `row` are
+        ``(1 - s) * jac`` and ``s * jac``.
     jac_error : (K, J) float64
-        With ``jac_error=True``: bounds of the error of each number of `jac`, at the values at `row` as
-        rounded; inf on ridges and for meshes.
+        With ``jac_error=True``: bounds of the error of each number of `jac`, for the rounded joint
+        values at `row`; inf on ridges and for meshes.
     """
 
     def __repr__(self):
@@ -180,12 +180,12 @@ class Verdict:
     row : float
         Position of upper on the path: 2.25 is a quarter of the way from row 2 to row 3.
     begin, end : float
-        First interval of the path, in rows, in which the pair collides or may collide; both are row
-        for a free motion.
+        First interval of the path, in rows, in which the pair collides or may collide. For a free
+        motion both equal `row`.
     object_a, object_b : int
         Numbers of the pair; NO_OBJECT if there is none.
     point : (3,) float64
-        Midpoint between the two, or a point inside both.
+        Midpoint between the two objects, or a point inside both.
     """
 
     def __init__(self, fields):

@@ -16,7 +16,7 @@ class Distances(_Arrays):
     Attributes
     ----------
     value : (N,) float64
-        The distance in the world's unit; for an overlap minus the penetration depth.
+        The distance in the world's unit, or minus the penetration depth for an overlap.
     lower, upper : (N,) float64
         Proven bounds: ``lower <= value <= upper``.
     normal : (N, 3) float64
@@ -31,8 +31,8 @@ class Distances(_Arrays):
         With ``jac=True``: the derivative of `value` with respect to a twist (v, w) of each body: v is the
         velocity of its frame's origin along the world's axes, w the angular velocity about that point.
     is_ridge : (N,) bool
-        With ``jac=True``: True where the bounds do not exclude other derivatives, as for parallel
-        faces; `jac_a` and `jac_b` are one of them.
+        With ``jac=True``: True where the derivative may not be unique, as for parallel faces; `jac_a`
+        and `jac_b` are then one of the derivatives.
     jac_error_a, jac_error_b : (N, 2) float64
         With ``jac_error=True``: bounds of the length of the error of `jac_a` and `jac_b`, for v and
         for w;
@@ -85,7 +85,7 @@ class Manifolds(_Arrays):
     points : (N, 4, 3) float64
         Midpoints between points_a and points_b, in the world; NaN from index `count` on.
     points_a, points_b : (N, 4, 3) float64
-        On the bodies: ``points_b - points_a = gaps * normal``. The first are the nearest points.
+        On the bodies: ``points_b - points_a = gaps * normal``. The first pair are the nearest points.
     gaps : (N, 4) float64
         Distance at each point; negative: penetration depth.
     value, lower, upper : (N,) float64
@@ -274,8 +274,8 @@ def signed_distances(a, pose_a, b, pose_b, *, jac=False, jac_error=False, tolera
     ----------
     a, b : Shape, or list of N of them
     pose_a, pose_b : (N, 4, 4), (N, 3, 4) or (N, 7) array, or one of them, or None
-        From the shape's frame to the world; rigid. Seven numbers are (x, y, z, qw, qx, qy, qz). All
-        arguments follow NumPy's broadcasting, for example one shape with N poses.
+        Rigid maps from the shape's frame to the world. Seven numbers are (x, y, z, qw, qx, qy, qz).
+        All arguments follow NumPy's broadcasting, for example one shape with N poses.
     jac : bool
         Add derivatives.
     jac_error : bool
@@ -287,7 +287,7 @@ def signed_distances(a, pose_a, b, pose_b, *, jac=False, jac_error=False, tolera
     threads : int
         0: one per core. Results are bit-identical for any number.
     out : Distances, or dict of arrays, optional
-        Arrays to fill, such as an earlier result; of a dict only those that are present.
+        Arrays to fill, such as an earlier result. A dict may contain only some of the arrays.
     progress : callable, optional
         Called from time to time with the fraction done; return True to stop.
 

@@ -50,7 +50,7 @@ class Distance(_Answer):
     Attributes
     ----------
     value : float or (...) array
-        The distance; for an overlap minus the penetration depth.
+        The distance, or minus the penetration depth for an overlap.
     lower, upper : float or (...) array
         Proven bounds: ``lower <= value <= upper``.
     point_a, point_b : (..., 3) array
@@ -113,7 +113,7 @@ class _Pairs:
 
 @public
 def signed_distance(a, pose_a, b, pose_b, tolerance=1e-10):
-    """Signed distance of two shapes: positive apart, negative penetration depth.
+    """Signed distance of two shapes: the distance, or minus the penetration depth for an overlap.
 
     Parameters
     ----------

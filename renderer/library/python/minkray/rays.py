@@ -15,8 +15,8 @@ def pinhole(K, pose, width, height):
     Parameters
     ----------
     K : (3, 3) array
-        In pixels; the frame is OpenCV's: x right, y down, z ahead. The upper left corner of the
-        picture is at (0, 0), the centre of its first pixel at (0.5, 0.5).
+        Camera matrix, in pixels; the frame is OpenCV's: x right, y down, z ahead. The upper left
+        corner of the picture is at (0, 0), the centre of the first pixel at (0.5, 0.5).
     pose : (4, 4) array or None
         Of the camera, in the world.
     width, height : int
@@ -96,9 +96,9 @@ def lidar(pattern, pose=None):
     pattern : str or tuple
         Name of a lidar: "VLP-16", "VLP-32C", "HDL-64E", "OS1-64" or "Mid-360". Or a file: .csv of
         azimuths and zeniths (Livox), .json of elevations (also Ouster's), .mat3x4f (RobotecGPULidar).
-        Or a spinning sensor: ``(channels, steps)`` or ``(channels, steps, lowest, highest)`` with
-        elevations in degrees (default -15 and 15). Its rays are ordered by channel from the highest,
-        clockwise from behind: ``rays.reshape(channels, steps, 6)`` is an image.
+        Or a spinning lidar: ``(channels, steps)`` or ``(channels, steps, lowest, highest)`` with
+        elevations in degrees (default -15 and 15). Rays of a spinning lidar are ordered by channel,
+        the highest first, then clockwise from behind: ``rays.reshape(channels, steps, 6)`` is an image.
     pose : (4, 4) array, optional
         Of the sensor, in the world; x is ahead, z the axis.
 

@@ -68,7 +68,7 @@ class Scene(RaysOfScene, PairsOfScene):
 
     @public
     def add_half_space(self, normal, offset=0.0, name=None):
-        """Adds all points x with ``normal . x <= offset * |normal|``.
+        """Adds a half-space: all points x with ``normal . x <= offset * |normal|``.
 
         Parameters
         ----------
@@ -92,7 +92,7 @@ class Scene(RaysOfScene, PairsOfScene):
     @public
     def add_file(self, file, pose=None, geometry="visual", keyframe="", package_dirs=(),
                  skip_missing_meshes=False, meshes=""):
-        """Adds a file: a scene of Minkray (.json), or a robot (URDF, MJCF, SDF, glTF).
+        """Adds a file: a Minkray scene (.json), or a robot (URDF, MJCF, SDF, glTF).
 
         Parameters
         ----------
@@ -107,8 +107,8 @@ class Scene(RaysOfScene, PairsOfScene):
             Folders to search for ``package://`` and ``model://``.
         skip_missing_meshes : bool
         meshes : {'', 'exact', 'hull'}
-            Robots' mesh files: their triangles, or their convex hulls. The default is exact, except
-            for contact of MJCF, which uses the hull as MuJoCo does.
+            Use the triangles of robots' mesh files, or their convex hulls. The default is 'exact',
+            but contacts of MJCF robots use the hull, as in MuJoCo.
 
         Returns
         -------
@@ -285,7 +285,7 @@ class Scene(RaysOfScene, PairsOfScene):
 
     @public
     def commit(self):
-        """Applies changes. Queries do so themselves if necessary."""
+        """Applies changes. Queries call it automatically if necessary."""
         changes = self._changes
         self._scene.commit()
         self._committed = changes
@@ -353,7 +353,7 @@ class Scene(RaysOfScene, PairsOfScene):
         margin : float
             Distance that the robot must keep from obstacles.
         tolerance : float
-            Largest gap between the bounds of the least clearance, relative to it.
+            Largest gap between the bounds of the clearance, relative to the clearance.
         only_obstacles : bool
             Check obstacles only, not self-collision.
         threads : int

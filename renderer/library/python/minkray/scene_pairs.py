@@ -62,10 +62,10 @@ class Nearest(_Arrays):
         A `DistanceStatus`.
     jac, is_ridge : six numbers, and bool
         With ``jac=True``: the derivative of `value` with respect to a twist of the shape (for a
-        point, its velocity), and True where it may be ambiguous. Other objects at the same distance do
-        not count.
+        point, its velocity), and True where it may be ambiguous. Other objects at the same distance
+        do not make it ambiguous.
     jac_error : two numbers
-        With ``jac_error=True``: bounds of the length of the error of `jac`, as of `Distances`.
+        With ``jac_error=True``: bounds of the length of the error of `jac`, as in `Distances`.
     """
 
     def __repr__(self):
@@ -196,7 +196,7 @@ class PairsOfScene:
 
     @_public
     def set_masks(self, object, category=1, mask=_ALL):
-        """Sets which other objects an object forms pairs with.
+        """Sets the objects that an object forms pairs with.
 
         Parameters
         ----------

@@ -47,7 +47,7 @@ class RaysOfScene:
         rays : (N, 6) or (..., 6) array
             Origin and direction (of any length except zero). Arrays of float64 are not copied.
         t_max : float or (...) array, optional
-            End of the ray, in lengths of the direction; None: no end. 0: only the origin.
+            Largest `t` of the ray. None: no end; 0: only the origin.
         threads : int
             0: one per core. Results are bit-identical for any number.
         jac : bool
@@ -105,15 +105,15 @@ class RaysOfScene:
 
     @_public
     def certify(self, rays, hits=None, t_max=None, threads=0):
-        """Casts rays and proves the results for all objects, by planes and support points alone.
+        """Casts rays and proves the results for all objects, using only planes and support points.
 
         Parameters
         ----------
         rays : (N, 6) or (..., 6) array
             As for `cast_rays`.
         hits : Hits, optional
-            Results of `cast_rays` for the same rays and t_max. A result that differs from a new cast
-            does not hold.
+            Results of `cast_rays` for the same rays and t_max. The proof of a result that differs
+            from a new cast fails.
         t_max : float or (...) array, optional
             As for `cast_rays`.
         threads : int
@@ -163,7 +163,7 @@ class RaysOfScene:
         ----------
         camera : dict, optional
             As in scene files: ``{"position": [0, -5, 2], "look_at": [0, 0, 0]}``. None: the camera of
-            the first scene file that has one; if none has, everything is framed.
+            the first scene file that has one, or else a camera that shows all objects.
         spp : int
             Samples per pixel.
         bounces : int, optional
