@@ -177,25 +177,25 @@ class Room {
     const Vec3<double> axis = direction();
     return Eigen::AngleAxis<double>(in(0, 3), axis).toRotationMatrix();
   }
-  Shape<double> shape(std::size_t kind) {
+  Shape shape(std::size_t kind) {
     switch (kind) {
       case 0:
-        return Box<double>{{0.6, 0.4, 0.3}};
+        return Box{{0.6, 0.4, 0.3}};
       case 1:
-        return Cylinder<double>{0.4, 0.5};
+        return Cylinder{0.4, 0.5};
       case 2:
-        return Cone<double>{0.5, 0.5};
+        return Cone{0.5, 0.5};
       case 3: {
         std::vector<Vec3<double>> points;
         for (int i = 0; i < 32; ++i) points.push_back(0.6 * direction());
-        return Hull<double>{PointCloud<double>(points)};
+        return Hull{PointCloud(points)};
       }
       case 4:
-        return Sphere<double>{0.5};
+        return Sphere{0.5};
       case 5:
-        return Ellipsoid<double>{{0.7, 0.5, 0.3}};
+        return Ellipsoid{{0.7, 0.5, 0.3}};
       default:
-        return Capsule<double>{0.3, 0.4};
+        return Capsule{0.3, 0.4};
     }
   }
 

@@ -12,12 +12,10 @@
 #include <string>
 
 #include "core/cast/cast.h"
-#include "core/derived/convert.h"
 #include "core/parallel/parallel.h"
 #include "tests/support/cast_judge.h"
 #include "tests/support/measured_shapes.h"
 #include "tests/support/ray_families.h"
-#include "tests/support/rounded.h"
 
 namespace {
 
@@ -71,8 +69,7 @@ std::string told(const Ray<double>& ray) {
 
 /// The error of a filter's hit by the bound that it claims; what the oracle itself does not know is
 /// taken off.
-template <class T>
-double error_by_bound(const Ray<double>& ray, const CastResult<T>& answer, long double truth,
+double error_by_bound(const Ray<double>& ray, const CastResult<double>& answer, long double truth,
                       double radius) {
   constexpr long double epsilon = std::numeric_limits<long double>::epsilon();
   const long double unknown = 8 * epsilon * (ray.origin.norm() + radius) / ray.direction.norm();
@@ -83,8 +80,7 @@ double error_by_bound(const Ray<double>& ray, const CastResult<T>& answer, long 
   return certain == 0 ? 0 : static_cast<double>(certain / bound);
 }
 
-template <class T>
-void judge_one(const CastJudge& judge, const Ray<double>& ray, const CastResult<T>& answer,
+void judge_one(const CastJudge& judge, const Ray<double>& ray, const CastResult<double>& answer,
                const TrueEntry& truth, double radius, Count& count) {
   const Judgement judged = judge(ray, answer, truth);
   count.doubtful += answer.path != Path::filter;
@@ -101,7 +97,7 @@ void judge_one(const CastJudge& judge, const Ray<double>& ray, const CastResult<
     count.broken += !(by_bound <= 1);
     count.by_bound = std::max(count.by_bound, by_bound);
   }
-  count.coarse += !(judged.error <= testing::allowed_error<T>);
+  count.coarse += !(judged.error <= testing::allowed_error);
   count.supports_of_hits += answer.supports;
   count.most_supports = std::max(count.most_supports, answer.supports);
   if (!(judged.error <= count.along_normal)) {
@@ -110,48 +106,33 @@ void judge_one(const CastJudge& judge, const Ray<double>& ray, const CastResult<
   }
 }
 
-/// A shape as rounded to float, so that both precisions and the oracle mean the same one.
 struct Candidate {
-  explicit Candidate(const Shape<double>& shape)
-      : in_float(convert<float>(shape)),
-        same(convert<double>(in_float)),
-        for_float(in_float),
-        for_double(same),
-        judge(same) {}
+  explicit Candidate(const Shape& of) : shape(of), prepared(of), judge(of) {}
 
-  Shape<float> in_float;
-  Shape<double> same;
-  PreparedShape<float> for_float;
-  PreparedShape<double> for_double;
+  Shape shape;
+  PreparedShape prepared;
   CastJudge judge;
 };
 
-struct Both {
-  Count in_float, in_double;
-};
-
 /// An index range of a family's rays is cast by one call.
-Both cast_many(const Candidate& shape, testing::RayFamily family, long rays, std::uint64_t seed) {
-  testing::FamilyRays source(shape.same, family, seed);
-  Both both;
+Count cast_many(const Candidate& candidate, testing::RayFamily family, long rays,
+                std::uint64_t seed) {
+  testing::FamilyRays source(candidate.shape, family, seed);
+  Count count;
   for (long i = 0; i < rays; ++i) {
-    const Ray<float> ray = testing::rounded_to<float>(source.next());
-    const Ray<double> same_ray = testing::in_double(ray);
-    const CastResult<double> fine = cast_ray(shape.for_double, same_ray);
-    const CastResult<float> coarse = cast_ray(shape.for_float, ray);
-    const TrueEntry truth = shape.judge.truth(same_ray, fine.normal);
-    judge_one(shape.judge, same_ray, coarse, truth, source.ball().radius, both.in_float);
-    judge_one(shape.judge, same_ray, fine, truth, source.ball().radius, both.in_double);
+    const Ray<double> ray = source.next();
+    const CastResult<double> answer = cast_ray(candidate.prepared, ray);
+    const TrueEntry truth = candidate.judge.truth(ray, answer.normal);
+    judge_one(candidate.judge, ray, answer, truth, source.ball().radius, count);
   }
-  return both;
+  return count;
 }
 
-void print(const std::string& name, std::string_view family, std::string_view precision, long rays,
-           const Count& count) {
-  std::cout << std::left << std::setw(22) << name << std::setw(11) << family << std::setw(7)
-            << precision << std::right << std::setw(10) << rays << std::setw(10) << count.hits
-            << std::setw(6) << count.exhausted << std::setw(7) << count.undecided << std::setw(9)
-            << count.mistaken << std::setw(7) << count.false_answers << std::setw(7) << count.coarse
+void print(const std::string& name, std::string_view family, long rays, const Count& count) {
+  std::cout << std::left << std::setw(22) << name << std::setw(11) << family << std::right
+            << std::setw(10) << rays << std::setw(10) << count.hits << std::setw(6)
+            << count.exhausted << std::setw(7) << count.undecided << std::setw(9) << count.mistaken
+            << std::setw(7) << count.false_answers << std::setw(7) << count.coarse
             << std::setprecision(2) << std::scientific << std::setw(10) << count.along_normal
             << std::setw(9)
             << 100.0 * static_cast<double>(count.doubtful) / static_cast<double>(rays) << std::fixed
@@ -169,12 +150,12 @@ int main(int argc, char** argv) {
   const long rays = argc > 1 ? std::stol(argv[1]) : 100000;
   const std::string wanted = argc > 2 ? argv[2] : "";
   constexpr long range_size = 65536;
-  std::cout << std::left << std::setw(22) << "shape" << std::setw(11) << "rays" << std::setw(7)
-            << "in" << std::right << std::setw(10) << "count" << std::setw(10) << "hits"
-            << std::setw(6) << "exh." << std::setw(7) << "undec." << std::setw(9) << "mistaken"
-            << std::setw(7) << "false" << std::setw(7) << "coarse" << std::setw(10) << "dt*cos/R"
-            << std::setw(9) << "doubt %" << std::setw(8) << "/bound" << std::setw(7) << "broken"
-            << std::setw(7) << "supp." << std::setw(5) << "max"
+  std::cout << std::left << std::setw(22) << "shape" << std::setw(11) << "rays" << std::right
+            << std::setw(10) << "count" << std::setw(10) << "hits" << std::setw(6) << "exh."
+            << std::setw(7) << "undec." << std::setw(9) << "mistaken" << std::setw(7) << "false"
+            << std::setw(7) << "coarse" << std::setw(10) << "dt*cos/R" << std::setw(9) << "doubt %"
+            << std::setw(8) << "/bound" << std::setw(7) << "broken" << std::setw(7) << "supp."
+            << std::setw(5) << "max"
             << "\n";
   bool is_good = true, is_any = false;
   for (const testing::MeasuredShape& subject : testing::measured_shapes()) {
@@ -184,25 +165,22 @@ int main(int argc, char** argv) {
     for (const testing::RayFamilyDescription& family : testing::ray_families) {
       const bool is_random = family.family == testing::RayFamily::random;
       const long count = std::max(is_random ? rays : rays / 10, 1L);
-      Both all;
+      Count all;
       std::mutex mutex;
       parallel_for(static_cast<std::size_t>((count + range_size - 1) / range_size), 1,
                    [&](std::size_t begin, std::size_t end) {
                      for (std::size_t i = begin; i < end; ++i) {
                        const long here =
                            std::min(range_size, count - static_cast<long>(i) * range_size);
-                       const Both counted = cast_many(candidate, family.family, here, 1000 + i);
+                       const Count counted = cast_many(candidate, family.family, here, 1000 + i);
                        const std::lock_guard lock(mutex);
-                       all.in_float += counted.in_float;
-                       all.in_double += counted.in_double;
+                       all += counted;
                      }
                    });
-      print(subject.name, family.name, "float", count, all.in_float);
-      print(subject.name, family.name, "double", count, all.in_double);
+      print(subject.name, family.name, count, all);
       const bool is_ordinary = family.family != testing::RayFamily::degenerate;
-      for (const Count* counted : {&all.in_float, &all.in_double})
-        is_good = is_good && counted->false_answers == 0 && counted->exhausted == 0 &&
-                  counted->broken == 0 && (counted->coarse == 0 || !is_ordinary);
+      is_good = is_good && all.false_answers == 0 && all.exhausted == 0 && all.broken == 0 &&
+                (all.coarse == 0 || !is_ordinary);
     }
   }
   if (!is_any) std::cerr << "no shape's name contains " << wanted << "\n";

@@ -33,8 +33,8 @@ std::string short_number(double value, int digits) {
 
 }  // namespace
 
-std::vector<Measured> measure(const Peers& peers, const Shape<double>& shape,
-                              const RaysWithTruth& rays, int rounds) {
+std::vector<Measured> measure(const Peers& peers, const Shape& shape, const RaysWithTruth& rays,
+                              int rounds) {
   using Clock = std::chrono::steady_clock;
   const std::size_t count = rays.batch.size();
   std::vector<Measured> all(peers.size());

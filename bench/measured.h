@@ -17,7 +17,7 @@
 namespace minkray::bench {
 
 /// The one that all times are divided by.
-inline constexpr std::string_view baseline = "minkray-auto/float";
+inline constexpr std::string_view baseline = "minkray-auto";
 
 struct Measured {
   std::string name;
@@ -27,8 +27,8 @@ struct Measured {
   Judgement judgement;
 };
 
-std::vector<Measured> measure(const Peers& peers, const Shape<double>& shape,
-                              const RaysWithTruth& rays, int rounds);
+std::vector<Measured> measure(const Peers& peers, const Shape& shape, const RaysWithTruth& rays,
+                              int rounds);
 
 Json as_json(const Measured& measured);
 

@@ -8,7 +8,6 @@
 #include "bench/peers/others.h"
 #include "bench/peers/ours.h"
 #include "bench/truth.h"
-#include "core/derived/convert.h"
 #include "core/derived/shape_bounds.h"
 #include "renderer/json/json.h"
 #include "tests/support/measured_shapes.h"
@@ -54,8 +53,7 @@ std::vector<Size> sizes(const Options& options) {
           {" x 1e4", 1e4, chosen({"random"}), false}};
 }
 
-Peers make_peers(const Shape<double>& shape, double radius, bool with_others,
-                 const Options& options) {
+Peers make_peers(const Shape& shape, double radius, bool with_others, const Options& options) {
   Peers peers = scalar_solvers(shape, options.sweep && with_others);
   append(peers, packet_solvers(shape));
   if (!with_others) return peers;
@@ -136,11 +134,9 @@ void run(const Options& options) {
   for (const testing::MeasuredShape& subject : testing::measured_shapes()) {
     if (subject.name.find(options.shape) == std::string::npos) continue;
     for (const Size& size : sizes(options)) {
-      // All numbers that a float can hold, so that every precision has the same shape.
-      const Shape<double> wished =
+      const Shape shape =
           size.scale == 1 ? subject.shape : testing::scaled(subject.shape, size.scale);
-      const Shape<double> shape = convert<double>(convert<float>(wished));
-      const double radius = ball_around(bounds_of<double>(shape)).radius;
+      const double radius = ball_around(bounds_of(shape)).radius;
       if (size.families.empty()) continue;
       Peers peers = make_peers(shape, radius, size.with_others && options.only.empty(), options);
       if (!options.only.empty())

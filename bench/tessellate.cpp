@@ -70,16 +70,16 @@ Grid octahedron(int fineness) {
 
 /// The normal for the grid's direction: where the shape is long it is less curved across, and a
 /// superellipsoid's normals crowd where it is most curved.
-Vec3<double> normal_for(const Shape<double>& shape, const Vec3<double>& half,
+Vec3<double> normal_for(const Shape& shape, const Vec3<double>& half,
                         const Vec3<double>& direction) {
   Vec3<double> n = direction;
-  if (const auto* super = std::get_if<Superellipsoid<double>>(&shape.kind))
+  if (const auto* super = std::get_if<Superellipsoid>(&shape.kind))
     for (double& x : n) x = std::copysign(std::pow(std::abs(x), super->exponent - 1), x);
   return n.cwiseQuotient(half);
 }
 
-std::vector<Vec3<double>> support_points(const Shape<double>& shape, const Grid& grid) {
-  const Vec3<double> half = bounds_of<double>(shape).half_extents();
+std::vector<Vec3<double>> support_points(const Shape& shape, const Grid& grid) {
+  const Vec3<double> half = bounds_of(shape).half_extents();
   std::vector<Vec3<double>> points;
   points.reserve(grid.directions.size());
   for (const Vec3<double>& direction : grid.directions)
@@ -88,9 +88,9 @@ std::vector<Vec3<double>> support_points(const Shape<double>& shape, const Grid&
 }
 
 /// Leaves out triangles that have no area, turns the others outwards, and measures the error.
-TriangleMesh mesh_of(const Shape<double>& shape, const std::vector<Vec3<double>>& points,
+TriangleMesh mesh_of(const Shape& shape, const std::vector<Vec3<double>>& points,
                      const std::vector<std::array<Index, 3>>& triangles, double wanted_error) {
-  const Vec3<double> centre = bounds_of<double>(shape).centre();
+  const Vec3<double> centre = bounds_of(shape).centre();
   TriangleMesh mesh;
   for (const Vec3<double>& p : points) mesh.vertices.push_back(p.cast<float>());
   for (const auto& t : triangles) {
@@ -108,7 +108,7 @@ TriangleMesh mesh_of(const Shape<double>& shape, const std::vector<Vec3<double>>
   return mesh;
 }
 
-TriangleMesh hull_mesh(const Shape<double>& shape, const Grid& grid, double wanted_error) {
+TriangleMesh hull_mesh(const Shape& shape, const Grid& grid, double wanted_error) {
   const std::vector<Vec3<double>> points = support_points(shape, grid);
   const ConvexHull hull = convex_hull(points);
   std::vector<Vec3<double>> corners;
@@ -141,7 +141,7 @@ TriangleMesh fine_enough(const Make& make, double error, std::size_t most_triang
 
 }  // namespace
 
-TriangleMesh tessellate(const Shape<double>& shape, double error, std::size_t most_triangles) {
+TriangleMesh tessellate(const Shape& shape, double error, std::size_t most_triangles) {
   constexpr int many = 128;
   if (surface_of<double>(shape) == SurfaceKind::flat)
     return hull_mesh(shape, latitudes(many), error);
@@ -153,7 +153,7 @@ TriangleMesh tessellate(const Shape<double>& shape, double error, std::size_t mo
     };
   };
   // A coarse error shows which grid suits the shape.
-  const double coarse = std::max(error, 1e-3 * bounds_of<double>(shape).half_extents().norm());
+  const double coarse = std::max(error, 1e-3 * bounds_of(shape).half_extents().norm());
   constexpr std::size_t few_triangles = 100'000;
   const TriangleMesh rows = fine_enough(by_grid(latitudes), coarse, few_triangles),
                      octants = fine_enough(by_grid(octahedron), coarse, few_triangles);

@@ -23,7 +23,6 @@ struct TriangleMesh {
 /// triangles; the grid is as fine as the error wants it, a length, but no finer than
 /// `most_triangles`. Polytopes come out exact; where grids of directions do not follow a shape's
 /// edges (rounded hulls) the convex hull of the points is taken.
-TriangleMesh tessellate(const Shape<double>& shape, double error,
-                        std::size_t most_triangles = 16'000'000);
+TriangleMesh tessellate(const Shape& shape, double error, std::size_t most_triangles = 16'000'000);
 
 }  // namespace minkray::bench

@@ -30,7 +30,7 @@ struct RaysWithTruth {
 };
 
 /// Rays at the shape as rounded to float, so that all precisions mean the same one.
-RaysWithTruth make_rays(const Shape<double>& shape, std::string_view family, std::size_t count);
+RaysWithTruth make_rays(const Shape& shape, std::string_view family, std::size_t count);
 
 struct Spread {
   double mean = 0, most_of_all = 0, max = 0;  ///< most_of_all: 99.9 % are no more
@@ -52,7 +52,7 @@ struct Judgement {
 };
 
 /// `band` is 1e-6 for answers in float and 1e-12 in double.
-Judgement judge(const Shape<double>& shape, const RaysWithTruth& rays, std::span<const Hit> hits,
+Judgement judge(const Shape& shape, const RaysWithTruth& rays, std::span<const Hit> hits,
                 double band);
 
 }  // namespace minkray::bench

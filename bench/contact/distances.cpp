@@ -46,11 +46,10 @@ Contestant fcl_distance(const Asked& asked, fcl::GJKSolverType solver, const cha
 /// The function from before signed distances: its shapes are made for the poses.
 Contestant older_distance(const Asked& asked) {
   return {"older", [&asked, a = centred(asked.a.ours), b = centred(asked.b.ours)](std::size_t i) {
-            const auto place = [](const CentredShape<double>& shape, const Affine<double>& pose) {
+            const auto place = [](const CentredShape& shape, const Affine<double>& pose) {
               const Affine<double> turn{pose.linear, Vec3<double>::Zero()};
-              return CentredShape<double>{
-                  Transform<double>{Nested<double>(shape.about_centre), turn}, pose(shape.centre),
-                  shape.radius};
+              return CentredShape{Transform{Nested(shape.about_centre), turn}, pose(shape.centre),
+                                  shape.radius};
             };
             const Placement& placed = asked.where[i];
             return distance_between(place(a, placed.a), place(b, placed.b), {},

@@ -67,7 +67,7 @@ Everybody hull(int count, std::mt19937& engine) {
       faces->push_back(static_cast<int>(found.vertices[corner]));
     }
   }
-  const Shape<double> ours = Hull<double>{PointCloud<double>(points)};
+  const Shape ours = Hull{PointCloud(points)};
   const auto bullet = bullet_hull(points);
   return {"hull " + std::to_string(count),
           ours,
@@ -96,7 +96,7 @@ std::vector<Vec3<double>> corners_of(const Vec3<double>& half) {
 }  // namespace
 
 std::vector<Everybody> everybody() {
-  const auto made = [](std::string name, Shape<double> ours, std::shared_ptr<btConvexShape> bullet,
+  const auto made = [](std::string name, Shape ours, std::shared_ptr<btConvexShape> bullet,
                        std::shared_ptr<fcl::CollisionGeometryd> of_fcl,
                        std::function<dGeomID()> ode, std::string mujoco) {
     return Everybody{std::move(name), ours,   ContactShape(ours), bullet,
@@ -105,25 +105,25 @@ std::vector<Everybody> everybody() {
   std::mt19937 engine(7);
   std::vector<Everybody> all = {
       made(
-          "sphere", Sphere<double>{0.5}, std::make_shared<btSphereShape>(0.5f),
+          "sphere", Sphere{0.5}, std::make_shared<btSphereShape>(0.5f),
           std::make_shared<fcl::Sphered>(0.5), [] { return dCreateSphere(nullptr, 0.5); },
           "type=\"sphere\" size=\"0.5\""),
       made(
-          "capsule", Capsule<double>{0.25, 0.75}, std::make_shared<btCapsuleShapeZ>(0.25f, 1.5f),
+          "capsule", Capsule{0.25, 0.75}, std::make_shared<btCapsuleShapeZ>(0.25f, 1.5f),
           std::make_shared<fcl::Capsuled>(0.25, 1.5),
           [] { return dCreateCapsule(nullptr, 0.25, 1.5); }, "type=\"capsule\" size=\"0.25 0.75\""),
       made(
-          "box", Box<double>{{1, 0.5, 0.25}}, without_margin<btBoxShape>(btVector3(1, 0.5f, 0.25f)),
+          "box", Box{{1, 0.5, 0.25}}, without_margin<btBoxShape>(btVector3(1, 0.5f, 0.25f)),
           std::make_shared<fcl::Boxd>(2, 1, 0.5), [] { return dCreateBox(nullptr, 2, 1, 0.5); },
           "type=\"box\" size=\"1 0.5 0.25\""),
       made(
-          "cylinder", Cylinder<double>{0.5, 0.75},
+          "cylinder", Cylinder{0.5, 0.75},
           without_margin<btCylinderShapeZ>(btVector3(0.5f, 0.5f, 0.75f)),
           std::make_shared<fcl::Cylinderd>(0.5, 1.5),
           [] { return dCreateCylinder(nullptr, 0.5, 1.5); }, "type=\"cylinder\" size=\"0.5 0.75\""),
-      made("cone", Cone<double>{0.5, 0.75}, without_margin<btConeShapeZ>(0.5f, 1.5f),
+      made("cone", Cone{0.5, 0.75}, without_margin<btConeShapeZ>(0.5f, 1.5f),
            std::make_shared<fcl::Coned>(0.5, 1.5), nullptr, ""),
-      made("ellipsoid", Ellipsoid<double>{{1, 0.6, 0.3}}, nullptr,
+      made("ellipsoid", Ellipsoid{{1, 0.6, 0.3}}, nullptr,
            std::make_shared<fcl::Ellipsoidd>(1, 0.6, 0.3), nullptr,
            "type=\"ellipsoid\" size=\"1 0.6 0.3\""),
       hull(32, engine),
@@ -131,9 +131,9 @@ std::vector<Everybody> everybody() {
   };
   // A box' margin is taken from its half extents; distances round it off.
   const Vec3<double> half(0.8, 0.4, 0.2);
-  const Shape<double> core = Box<double>{half};
-  Everybody rounded = made("rounded box", Rounded<double>{0.1, Nested<double>(core)}, nullptr,
-                           nullptr, nullptr, "");
+  const Shape core = Box{half};
+  Everybody rounded =
+      made("rounded box", Rounded{0.1, Nested(core)}, nullptr, nullptr, nullptr, "");
   const auto margin = std::make_shared<btBoxShape>(btVector3(0.9f, 0.5f, 0.3f));
   margin->setMargin(0.1f);
   rounded.bullet = margin;

@@ -18,7 +18,7 @@ namespace minkray::bench {
 /// Null or empty: the library has no such shape.
 struct Everybody {
   std::string name;
-  Shape<double> ours;
+  Shape ours;
   ContactShape ready;
   std::shared_ptr<btConvexShape> bullet;
   /// The one to cast: a rounded box is a hull there, since casts take a box' margin for sharp

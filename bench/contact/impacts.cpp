@@ -48,9 +48,9 @@ Contestant fcl_cast(const Asked& asked) {
 Contestant older_cast(const Asked& asked) {
   return {"older", [&asked](std::size_t i) {
             const Placement& placed = asked.where[i];
-            const PreparedPair<double> pair(centred(asked.a.ours, placed.a),
-                                            centred(asked.b.ours, placed.b));
-            const auto result = cast_shape<double>(pair, placed.motion, 1.0);
+            const PreparedPair pair(centred(asked.a.ours, placed.a),
+                                    centred(asked.b.ours, placed.b));
+            const auto result = cast_shape(pair, placed.motion, 1.0);
             return result.cast.found() ? result.cast.t() : no_answer;
           }};
 }

@@ -12,16 +12,15 @@ namespace {
 class RoundGeometry : public Tracer {
  public:
   RoundGeometry(const Scene& scene, bool are_capsules, int threads) : top_(threads) {
-    const std::vector<Shape<double>> shapes = shapes_of(scene);
+    const std::vector<Shape> shapes = shapes_of(scene);
     std::vector<std::array<float, 4>> points;  ///< with radii; two of each capsule
     const auto add = [&](const Vec3<double>& point, double radius) {
       points.push_back({static_cast<float>(point.x()), static_cast<float>(point.y()),
                         static_cast<float>(point.z()), static_cast<float>(radius)});
     };
     for_each_instance(scene, [&](std::uint32_t shape, const Affine<double>& pose) {
-      if (!are_capsules)
-        return add(pose.translation, std::get<Sphere<double>>(shapes[shape].kind).radius);
-      const auto& capsule = std::get<Capsule<double>>(shapes[shape].kind);
+      if (!are_capsules) return add(pose.translation, std::get<Sphere>(shapes[shape].kind).radius);
+      const auto& capsule = std::get<Capsule>(shapes[shape].kind);
       for (const double z : {-capsule.half_height, capsule.half_height})
         add(pose(Vec3<double>(0, 0, z)), capsule.radius);
     });
@@ -62,20 +61,19 @@ class RoundGeometry : public Tracer {
 
 template <class S>
 bool all_are(const Scene& scene) {
-  const std::vector<Shape<double>> shapes = shapes_of(scene);
-  return std::all_of(shapes.begin(), shapes.end(), [](const Shape<double>& shape) {
-    return std::holds_alternative<S>(shape.kind);
-  });
+  const std::vector<Shape> shapes = shapes_of(scene);
+  return std::all_of(shapes.begin(), shapes.end(),
+                     [](const Shape& shape) { return std::holds_alternative<S>(shape.kind); });
 }
 
 }  // namespace
 
 bool has_round_geometry(const Scene& scene) {
-  return all_are<Sphere<double>>(scene) || all_are<Capsule<double>>(scene);
+  return all_are<Sphere>(scene) || all_are<Capsule>(scene);
 }
 
 std::unique_ptr<Tracer> embree_round(const Scene& scene, int threads) {
-  return std::make_unique<RoundGeometry>(scene, all_are<Capsule<double>>(scene), threads);
+  return std::make_unique<RoundGeometry>(scene, all_are<Capsule>(scene), threads);
 }
 
 }  // namespace minkray::bench

@@ -119,9 +119,9 @@ class ClosedForm {
  public:
   explicit ClosedForm(const Scene& scene) {
     boxes_ = instances_of(scene).take_boxes();
-    for (const Shape<double>& shape : shapes_of(scene)) {
-      const auto& rounded = std::get<Rounded<double>>(shape.kind);
-      const auto& box = std::get<Box<double>>(rounded.shape->kind);
+    for (const Shape& shape : shapes_of(scene)) {
+      const auto& rounded = std::get<Rounded>(shape.kind);
+      const auto& box = std::get<Box>(rounded.shape->kind);
       shapes_.push_back({box.half_extents.cast<float>(), static_cast<float>(rounded.radius)});
     }
     for_each_instance(scene, [&](std::uint32_t shape, const Affine<double>& pose) {
@@ -158,9 +158,9 @@ class ClosedForm {
   std::vector<Place> places_;
 };
 
-bool is_rounded_box(const Shape<double>& shape) {
-  const auto* rounded = std::get_if<Rounded<double>>(&shape.kind);
-  return rounded && std::holds_alternative<Box<double>>(rounded->shape->kind);
+bool is_rounded_box(const Shape& shape) {
+  const auto* rounded = std::get_if<Rounded>(&shape.kind);
+  return rounded && std::holds_alternative<Box>(rounded->shape->kind);
 }
 
 }  // namespace
@@ -170,7 +170,7 @@ std::unique_ptr<Tracer> embree_with_our_cast(const Scene& scene, int threads) {
 }
 
 bool has_closed_form(const Scene& scene) {
-  const std::vector<Shape<double>> shapes = shapes_of(scene);
+  const std::vector<Shape> shapes = shapes_of(scene);
   return std::all_of(shapes.begin(), shapes.end(), is_rounded_box);
 }
 

@@ -17,7 +17,7 @@ Scene unshared_boxes(std::size_t count) {
                             random.within(0.3, 0.5));
     const std::array<double, 4> q = random.rotation();
     scene.objects.push_back({"",
-                             Rounded<double>{0.1, Shape<double>(Box<double>{half})},
+                             Rounded{0.1, Shape(Box{half})},
                              {rotation_matrix(q[0], q[1], q[2], q[3]), random.in_cube(100)},
                              0});
   }

@@ -15,15 +15,15 @@ std::size_t Meshes::triangles() const {
   return count;
 }
 
-TriangleMesh mesh_of_shape(const Shape<double>& shape, double relative_error) {
-  const double error = relative_error * ball_around(bounds_of<double>(shape)).radius;
+TriangleMesh mesh_of_shape(const Shape& shape, double relative_error) {
+  const double error = relative_error * ball_around(bounds_of(shape)).radius;
   if (std::optional<TriangleMesh> mesh = rounded_mesh(shape, error)) return *std::move(mesh);
   return tessellate(shape, error);
 }
 
 Meshes meshes_of(const Scene& scene, double relative_error) {
   const Clock clock;
-  const std::vector<Shape<double>> shapes = shapes_of(scene);
+  const std::vector<Shape> shapes = shapes_of(scene);
   Meshes meshes;
   meshes.relative_error = relative_error;
   meshes.meshes.resize(shapes.size());

@@ -18,6 +18,6 @@ struct Meshes {
 Meshes meshes_of(const Scene& scene, double relative_error);
 
 /// The mesh is of one shape, with an error of that part of its bounding radius.
-TriangleMesh mesh_of_shape(const Shape<double>& shape, double relative_error);
+TriangleMesh mesh_of_shape(const Shape& shape, double relative_error);
 
 }  // namespace minkray::bench

@@ -59,7 +59,7 @@ void write_scenes(const std::string& generated, const std::string& ours, const s
       << 2 / std::numbers::pi << " parallel point_at <0,0,0> }\n"
       << "#declare Matt = texture { pigment { rgb 0.7 } finish { ambient 0 diffuse 1 } }\n";
   for (const ParticleSet& set : scene.particles) {
-    const double radius = std::get<Sphere<double>>(set.shape.kind).radius;
+    const double radius = std::get<Sphere>(set.shape.kind).radius;
     for (std::size_t i = 0; i < set.size(); ++i)
       out << "sphere { " << pov(set.pose(i).translation) << ", " << radius
           << " texture { Matt } }\n";

@@ -32,8 +32,8 @@ void camera_rays(const Camera& camera, const PixelRect& tile, int samples,
 
 float lift_for(const Scene& scene) {
   double smallest = std::numeric_limits<double>::infinity();
-  for (const Shape<double>& shape : shapes_of(scene))
-    smallest = std::min(smallest, ball_around(bounds_of<double>(shape)).radius);
+  for (const Shape& shape : shapes_of(scene))
+    smallest = std::min(smallest, ball_around(bounds_of(shape)).radius);
   return static_cast<float>(1e-3 * smallest);
 }
 

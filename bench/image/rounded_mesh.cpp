@@ -42,13 +42,13 @@ struct Core {
   std::vector<V> normals;                  ///< of the facets
 };
 
-std::optional<Core> core_of(const Shape<double>& shape) {
+std::optional<Core> core_of(const Shape& shape) {
   Core core;
-  if (const auto* box = std::get_if<Box<double>>(&shape.kind)) {
+  if (const auto* box = std::get_if<Box>(&shape.kind)) {
     for (int i = 0; i < 8; ++i)
       core.corners.push_back(
           box->half_extents.cwiseProduct(V(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)));
-  } else if (const auto* hull = std::get_if<Hull<double>>(&shape.kind)) {
+  } else if (const auto* hull = std::get_if<Hull>(&shape.kind)) {
     core.corners = hull->points.points();
   } else {
     return std::nullopt;
@@ -240,8 +240,8 @@ class Builder {
 
 }  // namespace
 
-std::optional<TriangleMesh> rounded_mesh(const Shape<double>& shape, double error) {
-  const auto* rounded = std::get_if<Rounded<double>>(&shape.kind);
+std::optional<TriangleMesh> rounded_mesh(const Shape& shape, double error) {
+  const auto* rounded = std::get_if<Rounded>(&shape.kind);
   if (!rounded || !(rounded->radius > 0)) return std::nullopt;
   const std::optional<Core> core = core_of(*rounded->shape);
   if (!core) return std::nullopt;

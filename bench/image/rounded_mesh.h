@@ -12,6 +12,6 @@ namespace minkray::bench {
 
 /// Closed, within the shape, no point of it deeper below the surface than `error` (a length);
 /// nothing for other shapes than rounded solid polytopes.
-std::optional<TriangleMesh> rounded_mesh(const Shape<double>& shape, double error);
+std::optional<TriangleMesh> rounded_mesh(const Shape& shape, double error);
 
 }  // namespace minkray::bench

@@ -2,7 +2,6 @@
 #include "bench/image/subject.h"
 
 #include "bench/image/clock.h"
-#include "core/derived/convert.h"
 #include "core/derived/shape_bounds.h"
 #include "renderer/generate/generate.h"
 #include "renderer/generate/random.h"
@@ -15,25 +14,25 @@ namespace minkray::bench {
 namespace {
 
 /// Points of an ellipsoid; all of them are vertices.
-Shape<double> hull_of(int points) {
+Shape hull_of(int points) {
   Random random(7);
   std::vector<Vec3<double>> corners;
   for (int i = 0; i < points; ++i)
     corners.push_back(random.direction().cwiseProduct(Vec3<double>(0.75, 0.5, 0.35)));
-  return Hull<double>{PointCloud<double>(corners)};
+  return Hull{PointCloud(corners)};
 }
 
 /// Gives the particles of the one set eight shapes in turn, a set for each.
 void mix(Scene& scene) {
-  const Box<double> box{{0.5, 0.35, 0.2}};
-  const std::vector<Shape<double>> kinds = {Sphere<double>{0.5},
-                                            Ellipsoid<double>{{0.75, 0.5, 0.35}},
-                                            box,
-                                            Rounded<double>{0.1, Shape<double>(box)},
-                                            Capsule<double>{0.25, 0.4},
-                                            Cylinder<double>{0.35, 0.4},
-                                            Cone<double>{0.45, 0.5},
-                                            hull_of(16)};
+  const Box box{{0.5, 0.35, 0.2}};
+  const std::vector<Shape> kinds = {Sphere{0.5},
+                                    Ellipsoid{{0.75, 0.5, 0.35}},
+                                    box,
+                                    Rounded{0.1, Shape(box)},
+                                    Capsule{0.25, 0.4},
+                                    Cylinder{0.35, 0.4},
+                                    Cone{0.45, 0.5},
+                                    hull_of(16)};
   const ParticleSet all = std::move(scene.particles.at(0));
   scene.particles.clear();
   const std::size_t numbers = all.row_numbers();
@@ -73,8 +72,8 @@ Subject make_subject(const std::string& kind, std::size_t objects) {
   subject.load_seconds = loading.seconds();
   if (rounded)
     for (Object& object : subject.scene.objects) {
-      const double size = bounds_of<double>(object.shape).half_extents().maxCoeff();
-      object.shape = Rounded<double>{0.1 * size, object.shape};
+      const double size = bounds_of(object.shape).half_extents().maxCoeff();
+      object.shape = Rounded{0.1 * size, object.shape};
     }
   if (kind == "hulls-16" || kind == "hulls-64")
     subject.scene.particles.at(0).shape = hull_of(kind == "hulls-16" ? 16 : 64);
@@ -82,8 +81,8 @@ Subject make_subject(const std::string& kind, std::size_t objects) {
   return subject;
 }
 
-std::vector<Shape<double>> shapes_of(const Scene& scene) {
-  std::vector<Shape<double>> shapes;
+std::vector<Shape> shapes_of(const Scene& scene) {
+  std::vector<Shape> shapes;
   for (const Object& object : scene.objects) shapes.push_back(object.shape);
   for (const ParticleSet& set : scene.particles) shapes.push_back(set.shape);
   return shapes;

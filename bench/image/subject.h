@@ -26,7 +26,7 @@ struct Subject {
 Subject make_subject(const std::string& kind, std::size_t objects);
 
 /// All shapes there are, each once.
-std::vector<Shape<double>> shapes_of(const Scene& scene);
+std::vector<Shape> shapes_of(const Scene& scene);
 
 /// Calls take(which of the shapes, pose) for each instance in order.
 void for_each_instance(const Scene& scene,

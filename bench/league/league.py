@@ -17,7 +17,7 @@ import report  # noqa: E402
 from solver_process import Solver  # noqa: E402
 
 # Adapters in C++, in the order of the table: the program, and the solvers that it has.
-ADAPTERS = (('minkray', ('minkray', 'minkray-float')), ('bullet', ('bullet', 'bullet-gjk')),
+ADAPTERS = (('minkray', ('minkray',)), ('bullet', ('bullet', 'bullet-gjk')),
             ('fcl', ('fcl-libccd', 'fcl-indep')), ('libccd', ('libccd-gjk', 'libccd-mpr')), ('ode', ('ode',)),
             ('mujoco', ('mujoco',)))
 NPM = ('mujoco-js', 'rapier', 'jolt')

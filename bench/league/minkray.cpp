@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Minkray itself, in double and in float: shapes are prepared once, as its users would.
+// Minkray itself, in double: shapes are prepared once, as its users would.
 #include "bench/league/adapter.h"
 #include "core/cast/cast.h"
-#include "core/derived/convert.h"
 #include "core/pair_distance/signed_distance.h"
 #include "core/shape_cast/distance.h"
 #include "core/shape_cast/shape_cast.h"
@@ -20,37 +19,29 @@ using minkray::SignedDistanceQuery;
 using minkray::Status;
 using minkray::Vec3;
 
-template <class T>
-league::Answer as_answer(const minkray::CastResult<T>& result) {
+league::Answer as_answer(const minkray::CastResult<double>& result) {
   if (result.status == Status::exhausted) return league::failed("exhausted");
   if (!result.found()) return league::miss();
   return league::hit(double(result.t_base) + double(result.t_offset));
 }
 
-template <class T>
 league::Ask prepare(const RayQuery& query) {
-  const auto shape = std::make_shared<PreparedShape<T>>(minkray::convert<T>(query.shape));
-  const Ray<T> ray{query.ray.origin.cast<T>(), query.ray.direction.cast<T>(),
-                   static_cast<T>(query.ray.t_max)};
+  const auto shape = std::make_shared<PreparedShape>(query.shape);
+  const Ray<double> ray = query.ray;
   return [=] { return as_answer(minkray::cast_ray(*shape, ray)); };
 }
 
-template <class T>
 league::Ask prepare(const ShapeQuery& query) {
-  const auto pair =
-      std::make_shared<PreparedPair<T>>(minkray::centred(minkray::convert<T>(query.obstacle)),
-                                        minkray::centred(minkray::convert<T>(query.moving)));
-  const Vec3<T> of_moving = query.direction.cast<T>(),
-                of_obstacle = query.obstacle_direction.cast<T>();
-  return [=, t_max = static_cast<T>(query.t_max)] {
-    return as_answer(minkray::cast_shapes<T>(*pair, of_obstacle, of_moving, t_max, {}).cast);
+  const auto pair = std::make_shared<PreparedPair>(minkray::centred(query.obstacle),
+                                                   minkray::centred(query.moving));
+  const Vec3<double> of_moving = query.direction, of_obstacle = query.obstacle_direction;
+  return [=, t_max = query.t_max] {
+    return as_answer(minkray::cast_shapes(*pair, of_obstacle, of_moving, t_max, {}).cast);
   };
 }
 
-template <class T>
 league::Ask prepare(const DistanceQuery& query) {
-  const auto a = minkray::centred(minkray::convert<T>(query.a)),
-             b = minkray::centred(minkray::convert<T>(query.b));
+  const auto a = minkray::centred(query.a), b = minkray::centred(query.b);
   return [=] {
     const auto result = minkray::distance_between(a, b);
     if (std::string(minkray::name_of(result.status)) == "exhausted")
@@ -59,10 +50,9 @@ league::Ask prepare(const DistanceQuery& query) {
   };
 }
 
-template <class T>
 league::Ask prepare(const SignedDistanceQuery& query) {
-  const auto a = std::make_shared<minkray::ContactShape>(minkray::convert<T>(query.a)),
-             b = std::make_shared<minkray::ContactShape>(minkray::convert<T>(query.b));
+  const auto a = std::make_shared<minkray::ContactShape>(query.a),
+             b = std::make_shared<minkray::ContactShape>(query.b);
   return [=] {
     const auto result = minkray::signed_distance(*a, *b, {});
     if (result.status == minkray::SignedStatus::undecided) return league::failed("undecided");
@@ -70,23 +60,20 @@ league::Ask prepare(const SignedDistanceQuery& query) {
   };
 }
 
-template <class T>
 league::Ask prepare(const minkray::ManifoldQuery&) {
   return [] { return league::unsupported("the league has no points of contact"); };
 }
 
-template <class T>
 league::Ask prepare(const minkray::ImpactQuery&) {
   return [] { return league::unsupported("the league has no impacts"); };
 }
 
-template <class T>
 league::Ask prepare_line(const std::string& line) {
   minkray::MeshFiles meshes{std::filesystem::path()};
   minkray::Mistakes mistakes("league");
   const auto query = minkray::parse_query(line, meshes, mistakes);
   if (!query) return [why = mistakes.text()] { return league::failed(why); };
-  return std::visit([](const auto& kind) { return prepare<T>(kind); }, query->kind);
+  return std::visit([](const auto& kind) { return prepare(kind); }, query->kind);
 }
 
 }  // namespace
@@ -94,8 +81,6 @@ league::Ask prepare_line(const std::string& line) {
 int main(int argc, char** argv) {
   const std::string settings =
       "; solver auto; signed distances in double, to 1e-10 of the shapes' sizes";
-  return league::serve(
-      argc, argv,
-      {{"minkray", MINKRAY_VERSION, "double" + settings, {}, prepare_line<double>},
-       {"minkray-float", MINKRAY_VERSION, "float" + settings, {}, prepare_line<float>}});
+  return league::serve(argc, argv,
+                       {{"minkray", MINKRAY_VERSION, "double" + settings, {}, prepare_line}});
 }

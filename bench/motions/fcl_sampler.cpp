@@ -33,16 +33,16 @@ Geometry mesh_of(const Vertices& vertices, const Corners& triangles) {
 Geometry geometry_of(const ModelGeom& geom, Triangles triangles) {
   const bool is_hull = triangles == Triangles::of_hulls && geom.touches == Touch::as_hull;
   if (geom.mesh && !is_hull) return mesh_of(geom.mesh->vertices(), geom.mesh->triangles());
-  const Shape<double> shape = geom.mesh ? hull_of(*geom.mesh) : *geom.shape;
+  const Shape shape = geom.mesh ? hull_of(*geom.mesh) : *geom.shape;
   const auto& kind = shape.kind;
-  if (const auto* box = std::get_if<Box<double>>(&kind))
+  if (const auto* box = std::get_if<Box>(&kind))
     return std::make_shared<fcl::Boxd>(2 * box->half_extents.x(), 2 * box->half_extents.y(),
                                        2 * box->half_extents.z());
-  if (const auto* ball = std::get_if<Sphere<double>>(&kind))
+  if (const auto* ball = std::get_if<Sphere>(&kind))
     return std::make_shared<fcl::Sphered>(ball->radius);
-  if (const auto* cylinder = std::get_if<Cylinder<double>>(&kind))
+  if (const auto* cylinder = std::get_if<Cylinder>(&kind))
     return std::make_shared<fcl::Cylinderd>(cylinder->radius, 2 * cylinder->half_height);
-  if (const auto* hull = std::get_if<Hull<double>>(&kind)) {
+  if (const auto* hull = std::get_if<Hull>(&kind)) {
     const std::vector<Vec3<double>> points(hull->points.points().begin(),
                                            hull->points.points().end());
     const ConvexHull found = convex_hull(points);

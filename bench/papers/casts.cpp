@@ -4,23 +4,20 @@
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
 #include "bench/papers/comparisons.h"
-#include "core/derived/convert.h"
 #include "core/shape_cast/distance.h"
 #include "core/shape_cast/shape_cast.h"
 
 namespace minkray::bench {
 namespace {
 
-template <class T>
 Contestant our_cast(const Everywhere& a, const Everywhere& b, SolverKind solver, const char* name) {
-  return {
-      name, [&a, &b, solver, A = convert<T>(a.ours), B = convert<T>(b.ours)](const Query& query) {
-        CastOptions<T> options;
-        options.solver = solver;
-        const PreparedPair<T> pair(centred(A, query.a.cast<T>()), centred(B, query.b.cast<T>()));
-        const auto result = cast_shape<T>(pair, query.motion.cast<T>(), T(1), options);
-        return result.cast.found() ? double(result.cast.t()) : none;
-      }};
+  return {name, [&a, &b, solver, A = a.ours, B = b.ours](const Query& query) {
+            CastOptions options;
+            options.solver = solver;
+            const PreparedPair pair(centred(A, query.a), centred(B, query.b));
+            const auto result = cast_shape(pair, query.motion, 1, options);
+            return result.cast.found() ? double(result.cast.t()) : none;
+          }};
 }
 
 }  // namespace
@@ -44,10 +41,9 @@ void compare_casts(const Everywhere& a, const Everywhere& b, const std::vector<Q
     };
   };
   std::vector<Contestant> contestants = {
-      our_cast<double>(a, b, SolverKind::paper, "minkray double, paper"),
-      our_cast<double>(a, b, SolverKind::automatic, "minkray double, auto"),
-      our_cast<float>(a, b, SolverKind::paper, "minkray float, paper"),
-      our_cast<double>(a, b, SolverKind::first_solution, "minkray double, Algorithm 1"),
+      our_cast(a, b, SolverKind::paper, "minkray, paper"),
+      our_cast(a, b, SolverKind::automatic, "minkray, auto"),
+      our_cast(a, b, SolverKind::first_solution, "minkray, Algorithm 1"),
       {"Bullet btSubsimplexConvexCast", bullet([&](btVoronoiSimplexSolver* simplex) {
          return btSubsimplexConvexCast(a.bullet.get(), b.bullet.get(), simplex);
        })},

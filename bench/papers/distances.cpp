@@ -7,23 +7,21 @@
 #include <array>
 
 #include "bench/papers/comparisons.h"
-#include "core/derived/convert.h"
 #include "core/shape_cast/distance.h"
 
 namespace minkray::bench {
 namespace {
 
-template <class T>
 Contestant our_distance(const Everywhere& a, const Everywhere& b, SubalgorithmKind kind,
                         const char* name) {
-  const CentredShape<T> A = centred(convert<T>(a.ours)), B = centred(convert<T>(b.ours));
+  const CentredShape A = centred(a.ours), B = centred(b.ours);
   return {
       name, [=](const Query& query) {
-        const auto place = [](const CentredShape<T>& shape, const Affine<double>& pose) {
-          const Affine<T> at = pose.template cast<T>();
-          return CentredShape<T>{
-              Transform<T>{Nested<T>(shape.about_centre), Affine<T>{at.linear, Vec3<T>::Zero()}},
-              at(shape.centre), shape.radius};
+        const auto place = [](const CentredShape& shape, const Affine<double>& pose) {
+          const Affine<double> at = pose;
+          return CentredShape{Transform{Nested(shape.about_centre),
+                                        Affine<double>{at.linear, Vec3<double>::Zero()}},
+                              at(shape.centre), shape.radius};
         };
         return double(distance_between(place(A, query.a), place(B, query.b), {}, kind).distance);
       }};
@@ -31,7 +29,7 @@ Contestant our_distance(const Everywhere& a, const Everywhere& b, SubalgorithmKi
 
 /// A shape of ours for libccd, which calls for supports in the world.
 struct CcdShape {
-  const Shape<double>* shape;
+  const Shape* shape;
   Affine<double> pose;
 };
 
@@ -47,13 +45,9 @@ void ccd_support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* su
 
 void compare_distances(const Everywhere& a, const Everywhere& b, const std::vector<Query>& list) {
   std::vector<Contestant> contestants = {
-      our_distance<double>(a, b, SubalgorithmKind::projection, "minkray double, projection"),
-      our_distance<double>(a, b, SubalgorithmKind::johnson, "minkray double, johnson"),
-      our_distance<double>(a, b, SubalgorithmKind::signed_volumes,
-                           "minkray double, signed volumes"),
-      our_distance<float>(a, b, SubalgorithmKind::projection, "minkray float, projection"),
-      our_distance<float>(a, b, SubalgorithmKind::johnson, "minkray float, johnson"),
-      our_distance<float>(a, b, SubalgorithmKind::signed_volumes, "minkray float, signed volumes"),
+      our_distance(a, b, SubalgorithmKind::projection, "minkray, projection"),
+      our_distance(a, b, SubalgorithmKind::johnson, "minkray, johnson"),
+      our_distance(a, b, SubalgorithmKind::signed_volumes, "minkray, signed volumes"),
   };
   contestants.push_back(
       {"Bullet btGjkPairDetector (float)", [&](const Query& query) {
@@ -88,11 +82,9 @@ void compare_distances(const Everywhere& a, const Everywhere& b, const std::vect
 }
 
 void compare_overlaps(const Everywhere& a, const Everywhere& b, const std::vector<Query>& list) {
-  const Contestant ours =
-      our_distance<double>(a, b, SubalgorithmKind::projection, "minkray double");
+  const Contestant ours = our_distance(a, b, SubalgorithmKind::projection, "minkray");
   std::vector<Contestant> contestants = {
-      {"minkray double, distance",
-       [&](const Query& query) { return ours.ask(query) > 0 ? none : 0.0; }},
+      {"minkray, distance", [&](const Query& query) { return ours.ask(query) > 0 ? none : 0.0; }},
       {"libccd ccdGJKIntersect, our supports", [&](const Query& query) {
          ccd_t ccd;
          CCD_INIT(&ccd);

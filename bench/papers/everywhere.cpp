@@ -22,16 +22,16 @@ std::vector<Everywhere> make_shapes() {
     hull->addPoint({p.x(), p.y(), p.z()}, i == 31);
   }
   std::vector<Everywhere> shapes = {
-      {"sphere", Sphere<double>{0.5}, std::make_shared<btSphereShape>(0.5f),
+      {"sphere", Sphere{0.5}, std::make_shared<btSphereShape>(0.5f),
        std::make_shared<fcl::Sphered>(0.5)},
-      {"box", Box<double>{{1, 0.5, 0.25}}, std::make_shared<btBoxShape>(btVector3(1, 0.5f, 0.25f)),
+      {"box", Box{{1, 0.5, 0.25}}, std::make_shared<btBoxShape>(btVector3(1, 0.5f, 0.25f)),
        std::make_shared<fcl::Boxd>(2, 1, 0.5)},
-      {"cylinder", Cylinder<double>{0.5, 0.75},
+      {"cylinder", Cylinder{0.5, 0.75},
        std::make_shared<btCylinderShapeZ>(btVector3(0.5f, 0.5f, 0.75f)),
        std::make_shared<fcl::Cylinderd>(0.5, 1.5)},
-      {"cone", Cone<double>{0.5, 0.75}, std::make_shared<btConeShapeZ>(0.5f, 1.5f),
+      {"cone", Cone{0.5, 0.75}, std::make_shared<btConeShapeZ>(0.5f, 1.5f),
        std::make_shared<fcl::Coned>(0.5, 1.5)},
-      {"hull 32", Hull<double>{PointCloud<double>(points)}, hull, nullptr},
+      {"hull 32", Hull{PointCloud(points)}, hull, nullptr},
   };
   return shapes;
 }

@@ -16,7 +16,7 @@ namespace minkray::bench {
 /// One shape in every library's words.
 struct Everywhere {
   const char* name;
-  Shape<double> ours;
+  Shape ours;
   std::shared_ptr<btConvexShape> bullet;
   std::shared_ptr<fcl::CollisionGeometryd> fcl;  ///< null: not compared
 };

@@ -22,20 +22,20 @@ btVector3 vector(const Vec3<float>& v) {
   return {scalar(v.x()), scalar(v.y()), scalar(v.z())};
 }
 
-std::unique_ptr<btConvexShape> bullet_shape(const Shape<double>& shape) {
-  if (const auto* sphere = std::get_if<Sphere<double>>(&shape.kind))
+std::unique_ptr<btConvexShape> bullet_shape(const Shape& shape) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape.kind))
     return std::make_unique<btSphereShape>(scalar(sphere->radius));
-  if (const auto* box = std::get_if<Box<double>>(&shape.kind))
+  if (const auto* box = std::get_if<Box>(&shape.kind))
     return std::make_unique<btBoxShape>(vector(box->half_extents.cast<float>()));
-  if (const auto* cylinder = std::get_if<Cylinder<double>>(&shape.kind))
+  if (const auto* cylinder = std::get_if<Cylinder>(&shape.kind))
     return std::make_unique<btCylinderShapeZ>(btVector3(
         scalar(cylinder->radius), scalar(cylinder->radius), scalar(cylinder->half_height)));
-  if (const auto* capsule = std::get_if<Capsule<double>>(&shape.kind))
+  if (const auto* capsule = std::get_if<Capsule>(&shape.kind))
     return std::make_unique<btCapsuleShapeZ>(scalar(capsule->radius),
                                              scalar(2 * capsule->half_height));
-  if (const auto* cone = std::get_if<Cone<double>>(&shape.kind))
+  if (const auto* cone = std::get_if<Cone>(&shape.kind))
     return std::make_unique<btConeShapeZ>(scalar(cone->radius), scalar(2 * cone->half_height));
-  if (const auto* hull = std::get_if<Hull<double>>(&shape.kind)) {
+  if (const auto* hull = std::get_if<Hull>(&shape.kind)) {
     auto points = std::make_unique<btConvexHullShape>();
     for (const Vec3<double>& p : hull->points.points()) points->addPoint(vector(p.cast<float>()));
     return points;
@@ -92,7 +92,7 @@ Hit entry(Pair& pair, Kind kind, const Ray<float>& ray) {
 
 }  // namespace
 
-Peers bullet(const Shape<double>& shape) {
+Peers bullet(const Shape& shape) {
   Peers peers;
   for (const bool no_margin : {false, true}) {
     const auto pair = std::make_shared<Pair>();
@@ -100,8 +100,8 @@ Peers bullet(const Shape<double>& shape) {
     if (!pair->shape) return peers;
     pair->point.setMargin(0);
     // A sphere's and a capsule's margin is their radius.
-    const bool is_round = std::holds_alternative<Sphere<double>>(shape.kind) ||
-                          std::holds_alternative<Capsule<double>>(shape.kind);
+    const bool is_round =
+        std::holds_alternative<Sphere>(shape.kind) || std::holds_alternative<Capsule>(shape.kind);
     if (no_margin && is_round) continue;
     if (no_margin) pair->shape->setMargin(0);
     const std::string suffix = no_margin ? ", no margin/float" : "/float";

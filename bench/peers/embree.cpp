@@ -198,16 +198,16 @@ Peers embree_triangles(const TriangleMesh& mesh, const std::string& label) {
   return one_and_eight("triangles-" + label, scene);
 }
 
-Peers embree_own(const Shape<double>& shape) {
+Peers embree_own(const Shape& shape) {
   const auto f = [](double x) { return static_cast<float>(x); };
-  if (const auto* s = std::get_if<Sphere<double>>(&shape.kind))
+  if (const auto* s = std::get_if<Sphere>(&shape.kind))
     return one_and_eight("sphere",
                          round_scene(RTC_GEOMETRY_TYPE_SPHERE_POINT, {{0, 0, 0, f(s->radius)}}));
-  if (const auto* s = std::get_if<Capsule<double>>(&shape.kind))
+  if (const auto* s = std::get_if<Capsule>(&shape.kind))
     return one_and_eight("round-curve", round_scene(RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE,
                                                     {{0, 0, f(-s->half_height), f(s->radius)},
                                                      {0, 0, f(s->half_height), f(s->radius)}}));
-  if (const auto* s = std::get_if<TaperedCapsule<double>>(&shape.kind))
+  if (const auto* s = std::get_if<TaperedCapsule>(&shape.kind))
     return one_and_eight("round-curve", round_scene(RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE,
                                                     {{0, 0, f(-s->half_height), f(s->radii[0])},
                                                      {0, 0, f(s->half_height), f(s->radii[1])}}));

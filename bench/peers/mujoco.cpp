@@ -4,7 +4,7 @@
 
 namespace minkray::bench {
 
-Peers mujoco(const Shape<double>& shape) {
+Peers mujoco(const Shape& shape) {
   Peers peers;
   if (const auto ray_at = testing::MujocoRay::make(shape))
     peers.push_back(single_rays<double>(

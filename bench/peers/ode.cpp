@@ -4,7 +4,7 @@
 
 namespace minkray::bench {
 
-Peers ode(const Shape<double>& shape) {
+Peers ode(const Shape& shape) {
   Peers peers;
   if (const std::shared_ptr<testing::OdeRay> ray_at = testing::OdeRay::make(shape))
     peers.push_back(single_rays<double>(

@@ -7,9 +7,9 @@
 namespace minkray::bench {
 
 /// `sweep`: the paper's solver at every tolerance, not just at 1e-4 and its default.
-Peers scalar_solvers(const Shape<double>& shape, bool sweep);
+Peers scalar_solvers(const Shape& shape, bool sweep);
 
 /// Casts of many rays at once: this is the place for them.
-Peers packet_solvers(const Shape<double>& shape);
+Peers packet_solvers(const Shape& shape);
 
 }  // namespace minkray::bench

@@ -9,24 +9,24 @@
 
 namespace minkray {
 
-/// Reference algorithms and observed casts use Shape<T>: compiling them for every kind of shape is
-/// not worthwhile.
-template <class T, class Observer>
-CastResult<T> cast_with_gjk(Stage stage, const StageQuestion<T>& question, Observer&& observer) {
+/// Reference algorithms and observed casts use Shape: compiling them for every kind of
+/// shape is not worthwhile.
+template <class Observer>
+CastResult<double> cast_with_gjk(Stage stage, const StageQuestion& question, Observer&& observer) {
   const auto& near = question.near;
-  const CastOptions<T>& options = question.options;
-  const Shape<T>& any = question.shape.inner_shape();
-  const Ball<T>& ball = question.shape.inner_ball();
-  GjkCastOptions<T> gjk{options.eps_tol, options.max_iterations, options.v0};
-  if (!gjk.v0.isZero(T(0))) gjk.v0 = question.shape.normal_to_inner(gjk.v0);
+  const CastOptions& options = question.options;
+  const Shape& any = question.shape.inner_shape();
+  const Ball<double>& ball = question.shape.inner_ball();
+  GjkCastOptions<double> gjk{options.eps_tol, options.max_iterations, options.v0};
+  if (!gjk.v0.isZero(0)) gjk.v0 = question.shape.normal_to_inner(gjk.v0);
   const auto answer = [&] {
     switch (stage) {
       case Stage::algorithm_1:
         return first_solution(any, near, ball, tolerance::first_solution_max_supports, observer);
       case Stage::johnson:
-        return gjk_ray_cast(any, near, ball, gjk, observer, JohnsonSubalgorithm<T, 3>());
+        return gjk_ray_cast(any, near, ball, gjk, observer, JohnsonSubalgorithm<double, 3>());
       case Stage::signed_volumes:
-        return gjk_ray_cast(any, near, ball, gjk, observer, SignedVolumesSubalgorithm<T, 3>());
+        return gjk_ray_cast(any, near, ball, gjk, observer, SignedVolumesSubalgorithm<double, 3>());
       default:
         if constexpr (std::is_same_v<std::remove_cvref_t<Observer>, NoObserver>)
           return std::visit(
@@ -36,14 +36,14 @@ CastResult<T> cast_with_gjk(Stage stage, const StageQuestion<T>& question, Obser
           return gjk_ray_cast(any, near, ball, gjk, observer);
     }
   };
-  CastResult<T> result = answer();
+  CastResult<double> result = answer();
   result.path = Path::gjk;
   if (result.status == Status::hit) {  // known up to the rounding of a plane's offset
-    const T slope = std::max(-result.normal.dot(near.r), tolerance::least_slope<T>);
-    const T rounding =
-        (tolerance::plane_rounding<T> * ball.radius + near.loss) / slope * near.t_per_length;
+    const double slope = std::max(-result.normal.dot(near.r), tolerance::least_slope<double>);
+    const double rounding =
+        (tolerance::plane_rounding<double> * ball.radius + near.loss) / slope * near.t_per_length;
     // For reversed rays t decreases along the ray.
-    const T digits = std::copysign(near.offset_rounding(result.t_offset), near.t_per_length);
+    const double digits = std::copysign(near.offset_rounding(result.t_offset), near.t_per_length);
     result.offset_lo -= rounding + digits;
     result.offset_hi += rounding + digits;
   }

@@ -3,13 +3,9 @@
 
 namespace minkray {
 
-template <class T>
-CastResult<T> ask_model(Stage stage, const StageQuestion<T>& question) {
+CastResult<double> ask_model(Stage stage, const StageQuestion& question) {
   return question.observer ? ask_model_observed(stage, question)
                            : cast_with_model(stage, question, NoObserver());
 }
-
-template CastResult<float> ask_model(Stage, const StageQuestion<float>&);
-template CastResult<double> ask_model(Stage, const StageQuestion<double>&);
 
 }  // namespace minkray

@@ -5,19 +5,12 @@
 
 namespace minkray {
 
-template <class T>
-CastResult<T> ask_model_observed(Stage stage, const StageQuestion<T>& question) {
+CastResult<double> ask_model_observed(Stage stage, const StageQuestion& question) {
   return cast_with_model(stage, question, question.observer);
 }
 
-template <class T>
-CastResult<T> ask_gjk_observed(Stage stage, const StageQuestion<T>& question) {
+CastResult<double> ask_gjk_observed(Stage stage, const StageQuestion& question) {
   return cast_with_gjk(stage, question, question.observer);
 }
-
-template CastResult<float> ask_model_observed(Stage, const StageQuestion<float>&);
-template CastResult<double> ask_model_observed(Stage, const StageQuestion<double>&);
-template CastResult<float> ask_gjk_observed(Stage, const StageQuestion<float>&);
-template CastResult<double> ask_gjk_observed(Stage, const StageQuestion<double>&);
 
 }  // namespace minkray

@@ -10,35 +10,32 @@ namespace minkray {
 namespace {
 
 /// True if the shape has a closed form and no particular solver was requested.
-template <class T>
-bool asks_filter(const PreparedShape<T>& shape, const CastOptions<T>& options) {
+bool asks_filter(const PreparedShape& shape, const CastOptions& options) {
   return options.solver == SolverKind::automatic &&
          shape.definition().form().kind != FormKind::none;
 }
 
 /// A miss has no parameter.
-template <class T>
-CastResult<T> result_of(const Filtered<T>& answer) {
-  CastResult<T> result;
+CastResult<double> result_of(const Filtered<double>& answer) {
+  CastResult<double> result;
   write_result(answer, result);
   if (result.status == Status::miss)
-    result.t_base = result.t_offset = result.offset_lo = result.offset_hi = T(0);
+    result.t_base = result.t_offset = result.offset_lo = result.offset_hi = 0.0;
   return result;
 }
 
 }  // namespace
 
-template <class T>
-CastResult<T> cast_ray(const PreparedShape<T>& shape, const Ray<T>& ray,
-                       const CastOptions<T>& options, const CastObserver<T>& observer) {
+CastResult<double> cast_ray(const PreparedShape& shape, const Ray<double>& ray,
+                            const CastOptions& options, const CastObserver& observer) {
   if (asks_filter(shape, options) && !observer) {
-    const Filtered<T> answer = filter<false>(shape, ray, true);
+    const Filtered<double> answer = filter<false>(shape, ray, true);
     if (answer.is_certain()) return result_of(answer);
   }
   return cast_by_later_stages(shape, ray, options, observer);
 }
 
-CastResult<double> cast_ray(const ShapeDefinition<double>& definition, const Affine<double>& pose,
+CastResult<double> cast_ray(const ShapeDefinition& definition, const Affine<double>& pose,
                             const Ray<double>& ray) {
   if (definition.is_plain() && keeps_lengths(pose.linear)) {
     const Mat3<double> to_inner = pose.linear.transpose();
@@ -49,32 +46,22 @@ CastResult<double> cast_ray(const ShapeDefinition<double>& definition, const Aff
                           is_turned ? &to_inner : nullptr);
     if (cast_by_form(place, ray, result)) return result;
   }
-  return cast_ray(PreparedShape<double>(definition, definition.placed(pose)), ray);
+  return cast_ray(PreparedShape(definition, definition.placed(pose)), ray);
 }
 
-template <class T>
-CastResult<T> cast_exit(const PreparedShape<T>& shape, const Ray<T>& ray,
-                        const CastOptions<T>& options) {
+CastResult<double> cast_exit(const PreparedShape& shape, const Ray<double>& ray,
+                             const CastOptions& options) {
   const auto answer = [&] {
     if (asks_filter(shape, options)) {
-      const Filtered<T> filtered = filter<true>(shape, ray, true);
+      const Filtered<double> filtered = filter<true>(shape, ray, true);
       if (filtered.is_certain()) return result_of(filtered);
     }
     return exit_by_later_stages(shape, ray, options);
   };
-  CastResult<T> result = answer();
+  CastResult<double> result = answer();
   // The ray may start inside, so no lower bound is claimed.
-  if (result.status == Status::hit) result.offset_lo = -std::numeric_limits<T>::infinity();
+  if (result.status == Status::hit) result.offset_lo = -std::numeric_limits<double>::infinity();
   return result;
 }
-
-template CastResult<float> cast_ray(const PreparedShape<float>&, const Ray<float>&,
-                                    const CastOptions<float>&, const CastObserver<float>&);
-template CastResult<double> cast_ray(const PreparedShape<double>&, const Ray<double>&,
-                                     const CastOptions<double>&, const CastObserver<double>&);
-template CastResult<float> cast_exit(const PreparedShape<float>&, const Ray<float>&,
-                                     const CastOptions<float>&);
-template CastResult<double> cast_exit(const PreparedShape<double>&, const Ray<double>&,
-                                      const CastOptions<double>&);
 
 }  // namespace minkray

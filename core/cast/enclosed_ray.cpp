@@ -128,7 +128,7 @@ class Portal {
 /// Support points of a shape in the ray's frame, relative to the hit.
 class Seen {
  public:
-  Seen(const PreparedShape<double>& shape, const RayNearBall<double>& near, const Vec3<double>& x,
+  Seen(const PreparedShape& shape, const RayNearBall<double>& near, const Vec3<double>& x,
        const Vec3<double>& n)
       : shape_(shape),
         x_(x),
@@ -182,14 +182,14 @@ class Seen {
     return latest;
   }
 
-  const PreparedShape<double>& shape_;
+  const PreparedShape& shape_;
   Vec3<double> x_, r_, a_, b_, n_;
   double rounding_;
 };
 
 }  // namespace
 
-void enclose_ray(const PreparedShape<double>& shape, const RayNearBall<double>& near,
+void enclose_ray(const PreparedShape& shape, const RayNearBall<double>& near,
                  const Vec3<double>& normal, CastResult<double>& hit) {
   const double lambda = (hit.t_offset - near.t_shift) / near.t_per_length;
   const Vec3<double> x = near.s + lambda * near.r;

@@ -13,7 +13,7 @@ namespace minkray {
 /// these are far, the triangle is refined as portals are (G. Snethen, "XenoCollide", 2008). The
 /// bound stays infinite if the ray passes an edge to within rounding. The ray and the normal are in
 /// the shape's inner frame.
-void enclose_ray(const PreparedShape<double>& shape, const RayNearBall<double>& near,
+void enclose_ray(const PreparedShape& shape, const RayNearBall<double>& near,
                  const Vec3<double>& normal, CastResult<double>& hit);
 
 }  // namespace minkray

@@ -14,18 +14,18 @@ namespace minkray {
 
 /// Lanes that neither hit, miss nor begin inside are in doubt. The other members are those of
 /// CastResult.
-template <class F>
+template <class W>
 struct Filtered {
-  Mask<Work<F>> hit, inside, miss;
-  F t_base, t_offset, offset_lo, offset_hi;
-  Vec3<F> normal;
+  Mask<W> hit, inside, miss;
+  W t_base, t_offset, offset_lo, offset_hi;
+  Vec3<W> normal;
 
-  Mask<Work<F>> is_certain() const { return hit | miss | inside; }
+  Mask<W> is_certain() const { return hit | miss | inside; }
 };
 
 /// Writes the result of a single ray, which must be certain.
-template <class T>
-[[gnu::always_inline]] inline void write_result(const Filtered<T>& answer, CastResult<T>& result) {
+[[gnu::always_inline]] inline void write_result(const Filtered<double>& answer,
+                                                CastResult<double>& result) {
   result.status = answer.hit ? Status::hit : answer.miss ? Status::miss : Status::inside;
   result.path = Path::filter;
   result.t_base = answer.t_base;
@@ -53,13 +53,11 @@ template <class W>
 /// Finds where each ray enters the shape or, with `leaves`, where it leaves the shape. Only `open`
 /// lanes are computed. The shape is a PreparedShape, or its equivalent in lanes; its definition
 /// must have a form.
-template <bool leaves, class F, class Placed>
-[[gnu::always_inline]] inline Filtered<F> filter(const Placed& shape, const Ray<F>& ray,
-                                                 const Mask<Work<F>>& open) {
+template <bool leaves, class W, class Placed>
+[[gnu::always_inline]] inline Filtered<W> filter(const Placed& shape, const Ray<W>& ray,
+                                                 const Mask<W>& open) {
   using std::abs;
   using std::max;
-  using W = Work<F>;
-  using T = Lane<F>;
   const exact::Form& form = shape.definition().form();
   FormLine<W> near = form_line(form, shape, ray);
 
@@ -78,12 +76,12 @@ template <bool leaves, class F, class Placed>
   // The line's hit is the ray's if the ray begins before it and does not end before it.
   const W slack = near.slack;
   const W lo = entry.t - entry.e - slack, hi = entry.t + entry.e + slack;
-  Filtered<F> answer;
+  Filtered<W> answer;
   answer.hit = entry.hit & (lo >= first) & (hi <= last);
   answer.miss = entry.miss;
   answer.inside = Mask<W>(false);
   if (any(entry.hit & !answer.hit)) {
-    const W end_slack(double(tolerance::end_slack<T>) * form.inner_R * form.largest_scale);
+    const W end_slack(tolerance::end_slack<double> * form.inner_R * form.largest_scale);
     const W beyond = lo - last;
     const Mask<W> is_beyond =
         (beyond > W(0)) & (Mask<W>(leaves) | (beyond * beyond * line.dd > end_slack * end_slack));
@@ -105,37 +103,29 @@ template <bool leaves, class F, class Placed>
   if (form.is_upside_down) normal.z() = -normal.z();
   if (form.is_scaled) normal = normal.cwiseProduct(widen<W>(form.scale));
   if (const auto* map = shape.linear_to_inner()) {
-    const auto to_inner = detail::wider(*map);
-    using P = std::remove_cvref_t<decltype(to_inner(0, 0))>;
-    normal = times<W, P>(to_inner.transpose(), normal);
+    using P = std::remove_cvref_t<decltype((*map)(0, 0))>;
+    normal = times<W, P>(map->transpose(), normal);
   }
-  // Forms return unit normals, to rounding that is less than float's.
-  if (std::is_same_v<T, double> || form.is_scaled || shape.linear_to_inner())
-    normal = unit_of_ordinary<W>(normal);
-  else if (any(answer.miss))
-    normal = select<W>(answer.miss, unit_of_ordinary<W>(normal), normal);
+  normal = unit_of_ordinary<W>(normal);
   // If the line is so far away that its squared distance overflows, the normal has no length.
   if (any(answer.miss)) answer.miss &= W(normal.squaredNorm()) > W(0);
   if (any(answer.inside)) normal = select<W>(answer.inside, Vec3<W>::Zero(), normal);
-  answer.normal = {convert<T>(normal.x()), convert<T>(normal.y()), convert<T>(normal.z())};
+  answer.normal = normal;
 
-  answer.t_base = answer.t_offset = answer.offset_lo = answer.offset_hi = F(0);
+  answer.t_base = answer.t_offset = answer.offset_lo = answer.offset_hi = W(0);
   if (!any(answer.hit)) return answer;
-  // Splits t into two numbers of the ray's type; the bound includes their rounding.
-  answer.t_base =
-      convert<T>(any(answer.inside) ? select(answer.inside, W(0), near.base) : near.base);
-  const W rest = near.base - convert<double>(answer.t_base);
+  answer.t_base = any(answer.inside) ? select(answer.inside, W(0), near.base) : near.base;
   const W tau = leaves ? W(-entry.t) : entry.t;
-  W offset = (rest + near.shift) + tau * near.per;
+  W offset = near.shift + tau * near.per;
   W bound = entry.e * near.per * W(1 + tolerance::form_margin) +
-            (abs(offset) + abs(near.shift)) * W(tolerance::form_digits<T>);
+            (abs(offset) + abs(near.shift)) * W(tolerance::form_digits);
   if (any(answer.inside)) {  // some lanes of a packet
     offset = select(answer.inside, W(0), offset);
     bound = select(answer.inside, W(0), bound);
   }
-  answer.t_offset = convert<T>(offset);
-  answer.offset_lo = convert<T>(W(offset - bound));
-  answer.offset_hi = convert<T>(W(offset + bound));
+  answer.t_offset = offset;
+  answer.offset_lo = offset - bound;
+  answer.offset_hi = offset + bound;
   keep_on_ray(ray, answer);
   return answer;
 }

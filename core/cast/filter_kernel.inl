@@ -8,13 +8,15 @@
 namespace minkray {
 namespace {
 
-/// Takes as many lanes as F has, beginning with lane `from`.
-template <class F>
-void filter_part(const PreparedShape<Lane<F>>& shape, const RayPacket<Lane<F>>& rays,
-                 LaneBits lanes, std::size_t from, CastPacket<Lane<F>>& answers) {
-  const Ray<F> ray{load<F>(rays.origin, from), load<F>(rays.direction, from),
-                   F::load(rays.t_max.data() + from)};
-  const Filtered<F> answer = filter<false>(shape, ray, mask_of<Work<F>>(lanes >> from));
+using Lanes = Wide<double, static_cast<int>(IsaHere::register_bytes / sizeof(double)), IsaHere>;
+
+/// Takes as many lanes as a register has, beginning with lane `from`.
+void filter_part(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
+                 std::size_t from, CastPacket& answers) {
+  using W = Lanes;
+  const Ray<W> ray{load<W>(rays.origin, from), load<W>(rays.direction, from),
+                   W::load(rays.t_max.data() + from)};
+  const Filtered<W> answer = filter<false>(shape, ray, mask_of<W>(lanes >> from));
   answers.hit |= lane_bits(answer.hit) << from;
   answers.inside |= lane_bits(answer.inside) << from;
   answers.miss |= lane_bits(answer.miss) << from;
@@ -26,32 +28,17 @@ void filter_part(const PreparedShape<Lane<F>>& shape, const RayPacket<Lane<F>>& 
     answer.normal[axis].store(answers.normal[static_cast<std::size_t>(axis)].data() + from);
 }
 
-/// Works in parts that fill one register with doubles, whatever T is.
-template <class F>
-void kernel(const PreparedShape<Lane<F>>& shape, const RayPacket<Lane<F>>& rays, LaneBits lanes,
-            CastPacket<Lane<F>>& answers) {
-  constexpr LaneBits every = (LaneBits(1) << LaneOf<F>::count) - 1;
-  for (int at = 0; at < packet_lanes<Lane<F>>; at += LaneOf<F>::count) {
-    const auto from = static_cast<std::size_t>(at);
-    if (lanes >> from & every) filter_part<F>(shape, rays, lanes, from, answers);
-  }
-  answers.supports.fill(Lane<F>(0));
-  answers.path.fill(Path::filter);
-}
-
-template <class T>
-using SubPacket = Wide<T, static_cast<int>(IsaHere::register_bytes / sizeof(double)), IsaHere>;
-
 }  // namespace
 
-void MINKRAY_FILTER_KERNEL(const PreparedShape<float>& shape, const RayPacket<float>& rays,
-                           LaneBits lanes, CastPacket<float>& answers) {
-  kernel<SubPacket<float>>(shape, rays, lanes, answers);
-}
-
-void MINKRAY_FILTER_KERNEL(const PreparedShape<double>& shape, const RayPacket<double>& rays,
-                           LaneBits lanes, CastPacket<double>& answers) {
-  kernel<SubPacket<double>>(shape, rays, lanes, answers);
+void MINKRAY_FILTER_KERNEL(const PreparedShape& shape, const RayPacket& rays,
+                           LaneBits lanes, CastPacket& answers) {
+  constexpr LaneBits every = (LaneBits(1) << LaneOf<Lanes>::count) - 1;
+  for (int at = 0; at < packet_lanes; at += LaneOf<Lanes>::count) {
+    const auto from = static_cast<std::size_t>(at);
+    if (lanes >> from & every) filter_part(shape, rays, lanes, from, answers);
+  }
+  answers.supports.fill(0);
+  answers.path.fill(Path::filter);
 }
 
 }  // namespace minkray

@@ -15,16 +15,16 @@ class FormPlace {
  public:
   /// `centre`: centre of the inner shape's bounding ball, rounded to double. `to_inner`: null for
   /// the identity.
-  FormPlace(const ShapeDefinition<double>& definition, const Vec3<double>& centre,
+  FormPlace(const ShapeDefinition& definition, const Vec3<double>& centre,
             const Mat3<double>* to_inner)
       : definition_(definition), centre_(centre), to_inner_(to_inner) {}
 
-  const ShapeDefinition<double>& definition() const { return definition_; }
+  const ShapeDefinition& definition() const { return definition_; }
   const Vec3<double>& centre() const { return centre_; }
   const Mat3<double>* linear_to_inner() const { return to_inner_; }
 
  private:
-  const ShapeDefinition<double>& definition_;
+  const ShapeDefinition& definition_;
   Vec3<double> centre_;
   const Mat3<double>* to_inner_;
 };

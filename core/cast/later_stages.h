@@ -8,31 +8,14 @@
 namespace minkray {
 
 /// Same as cast_ray, without the filter.
-template <class T>
-CastResult<T> cast_by_later_stages(const PreparedShape<T>& shape, const Ray<T>& ray,
-                                   const CastOptions<T>& options, const CastObserver<T>& observer);
+CastResult<double> cast_by_later_stages(const PreparedShape& shape, const Ray<double>& ray,
+                                        const CastOptions& options, const CastObserver& observer);
 
 /// Same as cast_exit, without the filter.
-template <class T>
-CastResult<T> exit_by_later_stages(const PreparedShape<T>& shape, const Ray<T>& ray,
-                                   const CastOptions<T>& options);
+CastResult<double> exit_by_later_stages(const PreparedShape& shape, const Ray<double>& ray,
+                                        const CastOptions& options);
 
 /// Adds the upper bound of t to a hit that a packet found, as cast_by_later_stages does.
-void bound_hit(const PreparedShape<double>& shape, const Ray<double>& ray,
-               CastResult<double>& result);
-
-extern template CastResult<float> cast_by_later_stages(const PreparedShape<float>&,
-                                                       const Ray<float>&, const CastOptions<float>&,
-                                                       const CastObserver<float>&);
-extern template CastResult<double> cast_by_later_stages(const PreparedShape<double>&,
-                                                        const Ray<double>&,
-                                                        const CastOptions<double>&,
-                                                        const CastObserver<double>&);
-extern template CastResult<float> exit_by_later_stages(const PreparedShape<float>&,
-                                                       const Ray<float>&,
-                                                       const CastOptions<float>&);
-extern template CastResult<double> exit_by_later_stages(const PreparedShape<double>&,
-                                                        const Ray<double>&,
-                                                        const CastOptions<double>&);
+void bound_hit(const PreparedShape& shape, const Ray<double>& ray, CastResult<double>& result);
 
 }  // namespace minkray

@@ -9,17 +9,16 @@
 
 namespace minkray {
 
-template <class T>
-CastResult<T> CastPacket<T>::result(int lane) const {
+CastResult<double> CastPacket::result(int lane) const {
   const auto i = static_cast<std::size_t>(lane);
   const LaneBits bit = LaneBits(1) << lane;
-  CastResult<T> result;
+  CastResult<double> result;
   result.status = hit & bit      ? Status::hit
                   : inside & bit ? Status::inside
                   : miss & bit   ? Status::miss
                                  : Status::exhausted;
   result.path = path[i];
-  result.offset_hi = T(0);
+  result.offset_hi = 0.0;
   if (result.found()) {
     result.t_base = t_base[i];
     result.t_offset = t_offset[i];
@@ -31,8 +30,7 @@ CastResult<T> CastPacket<T>::result(int lane) const {
   return result;
 }
 
-template <class T>
-void CastPacket<T>::set(int lane, const CastResult<T>& result) {
+void CastPacket::set(int lane, const CastResult<double>& result) {
   const auto i = static_cast<std::size_t>(lane);
   const LaneBits bit = LaneBits(1) << lane;
   hit = (hit & ~bit) | (result.status == Status::hit ? bit : 0);
@@ -44,7 +42,7 @@ void CastPacket<T>::set(int lane, const CastResult<T>& result) {
   offset_hi[i] = result.offset_hi;
   for (int axis = 0; axis < 3; ++axis)
     normal[static_cast<std::size_t>(axis)][i] = result.normal[axis];
-  supports[i] = static_cast<T>(result.supports);
+  supports[i] = static_cast<double>(result.supports);
   path[i] = result.path;
 }
 
@@ -57,43 +55,34 @@ InstructionSet best_instruction_set() {
 #endif
 }
 
-template <class T>
-void cast_packet(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
-                 CastPacket<T>& answers, InstructionSet set) {
+void cast_packet(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
+                 CastPacket& answers, InstructionSet set) {
   answers.hit = answers.inside = answers.miss = 0;
   if (shape.definition().form().kind != FormKind::none) {
     if (set == InstructionSet::avx2)
       filter_kernel_avx2(shape, rays, lanes, answers);
     else
       filter_kernel_sse2(shape, rays, lanes, answers);
-  } else if (shape.definition().has_packets() && !shape.is_far_out()) {
+  } else if (shape.definition().has_packets()) {
     answers.path.fill(Path::model);
     if (set == InstructionSet::avx2)
       packet_kernel_avx2(shape, rays, lanes, answers);
     else
       packet_kernel_sse2(shape, rays, lanes, answers);
   }
-  if constexpr (std::is_same_v<T, double>)
-    for (int lane = 0; lane < packet_lanes<T>; ++lane) {
-      const auto i = static_cast<std::size_t>(lane);
-      if (!(answers.hit >> lane & 1u) || !std::isinf(answers.offset_hi[i])) continue;
-      CastResult<T> result = answers.result(lane);
-      bound_hit(shape, rays.ray(lane), result);
-      answers.set(lane, result);
-    }
+  for (int lane = 0; lane < packet_lanes; ++lane) {
+    const auto i = static_cast<std::size_t>(lane);
+    if (!(answers.hit >> lane & 1u) || !std::isinf(answers.offset_hi[i])) continue;
+    CastResult<double> result = answers.result(lane);
+    bound_hit(shape, rays.ray(lane), result);
+    answers.set(lane, result);
+  }
   // Lanes that the filter leaves in doubt, or whose model does not converge, are cast one by one.
   const LaneBits open = lanes & ~(answers.hit | answers.inside | answers.miss);
   if (!open) return;
-  for (int lane = 0; lane < packet_lanes<T>; ++lane)
+  for (int lane = 0; lane < packet_lanes; ++lane)
     if (open & (LaneBits(1) << lane))
-      answers.set(lane, cast_by_later_stages<T>(shape, rays.ray(lane), {}, {}));
+      answers.set(lane, cast_by_later_stages(shape, rays.ray(lane), {}, {}));
 }
-
-template struct CastPacket<float>;
-template struct CastPacket<double>;
-template void cast_packet(const PreparedShape<float>&, const RayPacket<float>&, LaneBits,
-                          CastPacket<float>&, InstructionSet);
-template void cast_packet(const PreparedShape<double>&, const RayPacket<double>&, LaneBits,
-                          CastPacket<double>&, InstructionSet);
 
 }  // namespace minkray

@@ -8,15 +8,11 @@
 namespace minkray {
 
 /// Requires a shape with a model. Lanes that do not converge are neither hit, inside nor miss.
-void packet_kernel_sse2(const PreparedShape<float>& shape, const RayPacket<float>& rays,
-                        LaneBits lanes, CastPacket<float>& answers);
-void packet_kernel_sse2(const PreparedShape<double>& shape, const RayPacket<double>& rays,
-                        LaneBits lanes, CastPacket<double>& answers);
+void packet_kernel_sse2(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
+                        CastPacket& answers);
 
 /// Requires a machine with AVX2 and FMA.
-void packet_kernel_avx2(const PreparedShape<float>& shape, const RayPacket<float>& rays,
-                        LaneBits lanes, CastPacket<float>& answers);
-void packet_kernel_avx2(const PreparedShape<double>& shape, const RayPacket<double>& rays,
-                        LaneBits lanes, CastPacket<double>& answers);
+void packet_kernel_avx2(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
+                        CastPacket& answers);
 
 }  // namespace minkray

@@ -12,9 +12,8 @@ namespace {
 
 /// Takes as many lanes as W has, beginning with lane `from`.
 template <class W>
-void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, LaneBits lanes,
-          std::size_t from, CastPacket<Lane<W>>& answers) {
-  using T = Lane<W>;
+void part(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
+          std::size_t from, CastPacket& answers) {
   const Ray<W> ray{load<W>(rays.origin, from), load<W>(rays.direction, from),
                    W::load(rays.t_max.data() + from)};
   const auto keep_normal = [&](const Vec3<W>& normal) {
@@ -23,21 +22,21 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
   };
   const auto all_miss = [&](const BoundsCast<W>& bounds) {
     const Vec3<W> normal = shape.template normal_to_outer<W>(bounds.normal);
-    const W squared = normal.squaredNorm(), zero(T(0));
-    answers.miss |= lane_bits(bounds.miss & (squared > zero) & (squared < W(T(2)))) << from;
+    const W squared = normal.squaredNorm(), zero(0.0);
+    answers.miss |= lane_bits(bounds.miss & (squared > zero) & (squared < W(2.0))) << from;
     keep_normal(normal);
     zero.store(answers.supports.data() + from);
   };
 
-  const Vec3<T>& half_extents = shape.inner_half_extents();
-  const Ball<T>& ball = shape.inner_ball();
+  const Vec3<double>& half_extents = shape.inner_half_extents();
+  const Ball<double>& ball = shape.inner_ball();
   BoundsCast<W> bounds = cast_at_box(shape.template line_to_inner<W>(ray), half_extents,
                                      ball.radius, mask_of<W>(lanes >> from));
   if (!any(bounds.open)) return all_miss(bounds);
   const RayNearBall<W> near = shape.template to_inner<W>(ray);
   // Left to the single casts.
   bounds.open &=
-      (!near.is_from_afar(ball.radius)) & (near.loss <= W(tolerance::small_loss<T> * ball.radius));
+      (!near.is_from_afar(ball.radius)) & (near.loss <= W(tolerance::small_loss<double> * ball.radius));
   cast_at_ball(near, ball.radius, bounds);
   if (!any(bounds.open)) return all_miss(bounds);
   CastLanes<W> result = with_model<W>(shape.definition(), [&](const auto& make_model) {
@@ -49,22 +48,22 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
   const Vec3<W> normal = shape.template normal_to_outer<W>(result.normal);
   const bool some_inside = any(result.inside);
   const auto at_origin = [&](const W& x) {
-    return some_inside ? select(result.inside, W(T(0)), x) : x;
+    return some_inside ? select(result.inside, W(0.0), x) : x;
   };
   using std::abs;
   const Mask<W> in_range =
-      abs(result.t_base + result.t_offset) < W(std::numeric_limits<T>::infinity());
+      abs(result.t_base + result.t_offset) < W(std::numeric_limits<double>::infinity());
   const Mask<W> numbers = has_numbers(result, normal);
   keep_on_ray(ray, result);
   // Uncertain lanes are left to the single casts.
   Mask<W> hit = result.hit & in_range & numbers, inside = result.inside & numbers;
-  if (const T uncertain = shape.definition().uncertain_slope(); uncertain > T(0)) {
+  if (const double uncertain = shape.definition().uncertain_slope(); uncertain > 0.0) {
     hit &= -result.normal.dot(near.r) >= W(uncertain);
     inside &= !result.uncertain;
   }
   answers.hit |= lane_bits(hit) << from;
   answers.inside |= lane_bits(inside) << from;
-  const Mask<W> has_plane = normal.squaredNorm() > W(T(0));
+  const Mask<W> has_plane = normal.squaredNorm() > W(0.0);
   answers.miss |= lane_bits(result.miss & numbers & has_plane) << from;
   at_origin(result.t_base).store(answers.t_base.data() + from);
   at_origin(result.t_offset).store(answers.t_offset.data() + from);
@@ -75,23 +74,17 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
 }
 
 /// Casts in parts as wide as the instruction set's registers.
-template <class T>
-void kernel(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
-            CastPacket<T>& answers) {
-  using W = Wide<T, static_cast<int>(IsaHere::register_bytes / sizeof(T)), IsaHere>;
-  for (int from = 0; from < packet_lanes<T>; from += LaneOf<W>::count)
+void kernel(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
+            CastPacket& answers) {
+  using W = Wide<double, static_cast<int>(IsaHere::register_bytes / sizeof(double)), IsaHere>;
+  for (int from = 0; from < packet_lanes; from += LaneOf<W>::count)
     part<W>(shape, rays, lanes, static_cast<std::size_t>(from), answers);
 }
 
 }  // namespace
 
-void MINKRAY_PACKET_KERNEL(const PreparedShape<float>& shape, const RayPacket<float>& rays,
-                           LaneBits lanes, CastPacket<float>& answers) {
-  kernel(shape, rays, lanes, answers);
-}
-
-void MINKRAY_PACKET_KERNEL(const PreparedShape<double>& shape, const RayPacket<double>& rays,
-                           LaneBits lanes, CastPacket<double>& answers) {
+void MINKRAY_PACKET_KERNEL(const PreparedShape& shape, const RayPacket& rays,
+                           LaneBits lanes, CastPacket& answers) {
   kernel(shape, rays, lanes, answers);
 }
 

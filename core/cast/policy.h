@@ -14,7 +14,6 @@ enum class Stage : unsigned char {
   none,
   filter,          ///< the closed form, in double, with an error bound (filter.h)
   bounds,          ///< the bounding box: misses only
-  in_double,       ///< the shape and the ray in double; always final. Rays in double skip it
   model,           ///< the hull of the features that support calls have found (core/model)
   gjk,             ///< the GJK ray cast
   support_portal,  ///< the model of a polytope, whatever the shape
@@ -27,7 +26,7 @@ enum class Stage : unsigned char {
 /// Hits that must be proven before they are returned, for shapes that may have corners.
 enum class Proof : unsigned char {
   none,
-  steep_hits,  ///< hits whose plane is nearly parallel to the ray; float rays are cast in double
+  steep_hits,  ///< hits whose plane is nearly parallel to the ray
   all,
 };
 
@@ -38,8 +37,7 @@ inline constexpr ShapeKinds with_form = 1;   ///< has a closed form
 inline constexpr ShapeKinds with_model = 2;  ///< has no closed form, but an exact model
 inline constexpr ShapeKinds osculated = 4;   ///< the model only osculates the shape
 inline constexpr ShapeKinds extreme = 8;     ///< extreme proportions (core/derived/proportions.h)
-inline constexpr ShapeKinds lost = 16;       ///< a needle of points thinner than float's rounding
-inline constexpr ShapeKinds ordinary = with_form | with_model | osculated | lost;
+inline constexpr ShapeKinds ordinary = with_form | with_model | osculated;
 inline constexpr ShapeKinds every = ordinary | extreme;
 }  // namespace shape_kind
 
@@ -47,13 +45,13 @@ struct Policy {
   SolverKind solver;
   ShapeKinds shapes;
   Proof proof;
-  std::array<Stage, 7> stages;  ///< up to the first `none`
+  std::array<Stage, 6> stages;  ///< up to the first `none`
 };
 
 namespace policy_rows {
 
 using enum Stage;
-using shape_kind::every, shape_kind::extreme, shape_kind::lost, shape_kind::ordinary;
+using shape_kind::every, shape_kind::extreme, shape_kind::ordinary;
 using shape_kind::osculated, shape_kind::with_form, shape_kind::with_model;
 using Kind = SolverKind;
 inline constexpr auto never = Proof::none;
@@ -61,25 +59,16 @@ inline constexpr auto steep = Proof::steep_hits;
 inline constexpr auto always = Proof::all;
 
 inline constexpr std::array policies = {
-    Policy{Kind::automatic,
-           with_form,
-           steep,
-           {filter, in_double, bounds, model, gjk, support_portal, finer}},
-    // Flat slivers in float are cast in double: the thinner they are, the more digits their models
-    // lose.
-    Policy{
-        Kind::automatic, with_model, steep, {in_double, bounds, model, gjk, support_portal, finer}},
+    Policy{Kind::automatic, with_form, steep, {filter, bounds, model, gjk, support_portal, finer}},
+    Policy{Kind::automatic, with_model, steep, {bounds, model, gjk, support_portal, finer}},
     Policy{Kind::automatic, osculated, steep, {gjk, model, support_portal, finer}},
-    Policy{Kind::automatic, lost, steep, {gjk, support_portal, finer}},
-    Policy{Kind::automatic, extreme, always, {in_double, model, gjk, finer}},
-    // Hulls of two features need digits: their models are cast in double.
-    Policy{Kind::jet, with_form, steep, {in_double, bounds, model, gjk, support_portal, finer}},
-    Policy{Kind::jet, ordinary, steep, {in_double, bounds, model, gjk, support_portal, finer}},
-    Policy{Kind::jet, extreme, always, {in_double, model, gjk, finer}},
+    Policy{Kind::automatic, extreme, always, {model, gjk, finer}},
+    Policy{Kind::jet, ordinary, steep, {bounds, model, gjk, support_portal, finer}},
+    Policy{Kind::jet, extreme, always, {model, gjk, finer}},
     Policy{Kind::portal, ordinary, steep, {bounds, support_portal, gjk}},
-    Policy{Kind::portal, extreme, always, {in_double, support_portal, gjk}},
+    Policy{Kind::portal, extreme, always, {support_portal, gjk}},
     Policy{Kind::paper, ordinary, steep, {gjk}},
-    Policy{Kind::paper, extreme, always, {in_double, gjk}},
+    Policy{Kind::paper, extreme, always, {gjk}},
     Policy{Kind::paper_johnson, every, never, {johnson}},
     Policy{Kind::paper_signed_volumes, every, never, {signed_volumes}},
     Policy{Kind::first_solution, every, never, {algorithm_1}},

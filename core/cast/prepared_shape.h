@@ -13,17 +13,16 @@ namespace minkray {
 
 /// A definition and a pose. "Inner" is the frame of the definition's inner shape, "outer" the frame
 /// of the rays.
-template <class T>
 class PreparedShape {
  public:
-  using Definition = ShapeDefinition<T>;
+  using Definition = ShapeDefinition;
 
   /// `pose` maps the frame of `shape` to the outer one; it must be invertible.
-  explicit PreparedShape(Shape<T> shape, const Affine<T>& pose = {})
+  explicit PreparedShape(Shape shape, const Affine<double>& pose = {})
       : PreparedShape(std::make_shared<const Definition>(std::move(shape)), pose) {}
 
   /// Shares the definition.
-  PreparedShape(std::shared_ptr<const Definition> definition, const Affine<T>& pose)
+  PreparedShape(std::shared_ptr<const Definition> definition, const Affine<double>& pose)
       : definition_(std::move(definition)) {
     const auto placement = definition_->placed(pose);
     centre_ = placement.centre;
@@ -41,8 +40,8 @@ class PreparedShape {
   /// For one cast: refers to the definition, which must outlive the prepared shape, without
   /// counting references. Large worlds make one per cast. `to_inner` is null for the identity;
   /// `loss` is Placement's.
-  PreparedShape(const Definition& definition, const TwoFoldVec3<T>& centre, const Mat3<T>* to_inner,
-                T loss)
+  PreparedShape(const Definition& definition, const TwoFoldVec3<double>& centre,
+                const Mat3<double>* to_inner, double loss)
       : definition_(std::shared_ptr<const Definition>(), &definition),
         centre_(centre),
         is_rigid_identity_(!to_inner),
@@ -53,29 +52,20 @@ class PreparedShape {
   const Definition& definition() const { return *definition_; }
   const std::shared_ptr<const Definition>& shared_definition() const { return definition_; }
   /// Centre of the ball in the outer frame: rounded, as forms use it, and with all digits.
-  const Vec3<T>& centre() const { return centre_.high; }
-  const TwoFoldVec3<T>& two_fold_centre() const { return centre_; }
+  const Vec3<double>& centre() const { return centre_.high; }
+  const TwoFoldVec3<double>& two_fold_centre() const { return centre_; }
   /// Null for the identity.
-  const Mat3<T>* linear_to_inner() const { return is_rigid_identity_ ? nullptr : &to_inner_; }
+  const Mat3<double>* linear_to_inner() const { return is_rigid_identity_ ? nullptr : &to_inner_; }
 
-  const Shape<T>& inner_shape() const { return definition_->inner_shape(); }
-  const Ball<T>& inner_ball() const { return definition_->inner_ball(); }
+  const Shape& inner_shape() const { return definition_->inner_shape(); }
+  const Ball<double>& inner_ball() const { return definition_->inner_ball(); }
   /// Half extents of the inner shape's axis-aligned bounds.
-  const Vec3<T>& inner_half_extents() const { return definition_->inner_half_extents(); }
-
-  /// True if the centre is far from the outer frame's origin, in radii: moving a float ray there
-  /// loses digits.
-  bool is_far_out() const {
-    if constexpr (std::is_same_v<T, double>) return false;
-    const T size = is_rigid_identity_ ? T(1) : to_inner_.cwiseAbs().maxCoeff();
-    const T R = inner_ball().radius;
-    return R > T(0) && centre_.high.cwiseAbs().maxCoeff() * size > T(tolerance::far_out) * R;
-  }
+  const Vec3<double>& inner_half_extents() const { return definition_->inner_half_extents(); }
 
   /// Model of the shape for the solvers on jets.
   ModelKind model() const { return definition_->model(); }
 
-  /// Maps the ray to the inner frame, relative to the ball's centre; W is T or a packet of it.
+  /// Maps the ray to the inner frame, relative to the ball's centre; W is double or a packet of it.
   template <class W>
   RayNearBall<W> to_inner(const Ray<W>& ray) const {
     RayNearBall<W> near = ray_near<W>(centre_, ray);
@@ -84,8 +74,8 @@ class PreparedShape {
   }
 
   /// Same as to_inner, for one ray with a distant origin.
-  RayNearBall<T> to_inner_from_afar(const Ray<T>& ray) const {
-    RayNearBall<T> near = ray_near_from_afar(centre_, ray);
+  RayNearBall<double> to_inner_from_afar(const Ray<double>& ray) const {
+    RayNearBall<double> near = ray_near_from_afar(centre_, ray);
     map_to_inner(near);
     return near;
   }
@@ -102,7 +92,7 @@ class PreparedShape {
     const Vec3<W> origin = detail::way_from<W>(centre_, ray.origin).rounded();
     const Vec3<W> o = sizes(origin), d = sizes(ray.direction);
     if (is_rigid_identity_) return line(origin, ray.direction, o, d);
-    const Mat3<T> map_sizes = to_inner_.cwiseAbs();
+    const Mat3<double> map_sizes = to_inner_.cwiseAbs();
     return line(times(to_inner_, origin), times(to_inner_, ray.direction), times(map_sizes, o),
                 times(map_sizes, d));
   }
@@ -110,12 +100,12 @@ class PreparedShape {
   /// Maps an inner normal to a unit normal in the outer frame.
   template <class W>
   Vec3<W> normal_to_outer(const Vec3<W>& normal) const {
-    return is_rigid_identity_ ? normal : unit<W>(times<W, T>(to_inner_.transpose(), normal));
+    return is_rigid_identity_ ? normal : unit<W>(times<W, double>(to_inner_.transpose(), normal));
   }
 
   /// Maps an outer normal to an inner one of any length; for hints, not for hot code.
-  Vec3<T> normal_to_inner(const Vec3<T>& normal) const {
-    return is_rigid_identity_ ? normal : Vec3<T>(to_inner_.transpose().inverse() * normal);
+  Vec3<double> normal_to_inner(const Vec3<double>& normal) const {
+    return is_rigid_identity_ ? normal : Vec3<double>(to_inner_.transpose().inverse() * normal);
   }
 
  private:
@@ -127,13 +117,13 @@ class PreparedShape {
   }
 
   /// Tolerance at a ray's end: a ray that ends on the surface hits it in spite of rounding.
-  T end_slack() const { return tolerance::end_slack<T> * inner_ball().radius; }
+  double end_slack() const { return tolerance::end_slack<double> * inner_ball().radius; }
 
   std::shared_ptr<const Definition> definition_;
-  TwoFoldVec3<T> centre_;
-  Mat3<T> to_inner_;
+  TwoFoldVec3<double> centre_;
+  Mat3<double> to_inner_;
   bool is_rigid_identity_;
-  T loss_ = T(0);
+  double loss_ = 0.0;
 };
 
 }  // namespace minkray

@@ -9,39 +9,24 @@
 namespace minkray {
 
 /// Input of all stages. The observer, if any, receives the iterations.
-template <class T>
 struct StageQuestion {
-  const PreparedShape<T>& shape;
-  const RayNearBall<T>& near;
-  const CastOptions<T>& options;
-  const CastObserver<T>& observer;
+  const PreparedShape& shape;
+  const RayNearBall<double>& near;
+  const CastOptions& options;
+  const CastObserver& observer;
 };
 
 /// Stage::model, or Stage::support_portal.
-template <class T>
-CastResult<T> ask_model(Stage stage, const StageQuestion<T>& question);
+CastResult<double> ask_model(Stage stage, const StageQuestion& question);
 
 /// Stage::gjk and the paper's other algorithms.
-template <class T>
-CastResult<T> ask_gjk(Stage stage, const StageQuestion<T>& question);
+CastResult<double> ask_gjk(Stage stage, const StageQuestion& question);
 
-/// Stage::finer, in double or in long double. The result's t_base is near.t_base.
-CastResult<double> ask_finer(const StageQuestion<float>& question);
-CastResult<double> ask_finer(const StageQuestion<double>& question);
+/// Stage::finer, in long double. The result's t_base is near.t_base.
+CastResult<double> ask_finer(const StageQuestion& question);
 
 /// Same as the two above, with an observer; compiled separately, not used by casts.
-template <class T>
-CastResult<T> ask_model_observed(Stage stage, const StageQuestion<T>& question);
-template <class T>
-CastResult<T> ask_gjk_observed(Stage stage, const StageQuestion<T>& question);
-
-extern template CastResult<float> ask_model(Stage, const StageQuestion<float>&);
-extern template CastResult<double> ask_model(Stage, const StageQuestion<double>&);
-extern template CastResult<float> ask_gjk(Stage, const StageQuestion<float>&);
-extern template CastResult<double> ask_gjk(Stage, const StageQuestion<double>&);
-extern template CastResult<float> ask_model_observed(Stage, const StageQuestion<float>&);
-extern template CastResult<double> ask_model_observed(Stage, const StageQuestion<double>&);
-extern template CastResult<float> ask_gjk_observed(Stage, const StageQuestion<float>&);
-extern template CastResult<double> ask_gjk_observed(Stage, const StageQuestion<double>&);
+CastResult<double> ask_model_observed(Stage stage, const StageQuestion& question);
+CastResult<double> ask_gjk_observed(Stage stage, const StageQuestion& question);
 
 }  // namespace minkray

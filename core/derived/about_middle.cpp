@@ -6,9 +6,9 @@
 namespace minkray {
 namespace {
 
-Shape<double> under(const Mat3<double>& linear, const Shape<double>& shape) {
+Shape under(const Mat3<double>& linear, const Shape& shape) {
   if (linear == Mat3<double>::Identity()) return shape;
-  return Transform<double>{shape, Affine<double>{linear, Vec3<double>::Zero()}};
+  return Transform{shape, Affine<double>{linear, Vec3<double>::Zero()}};
 }
 
 /// Nearer to its frame's origin than this, in its own size, a shape stays where it is.
@@ -19,7 +19,7 @@ bool is_far(const Bounds<double>& bounds) {
 }
 
 double similarity_of(const ComposedMap& map) {
-  return AffineMap<double>({map.linear.high, Vec3<double>::Zero()}).similarity();
+  return AffineMap({map.linear.high, Vec3<double>::Zero()}).similarity();
 }
 
 /// Rebuilds each kind of shape.
@@ -33,22 +33,22 @@ struct Rebuilder {
             map.loss + loss_of_turns(shape, map, similarity_of(map))};
   }
 
-  AboutMiddle operator()(const Point<double>& point) const {
-    return {Point<double>{Vec3<double>::Zero()}, map.image(point.position),
+  AboutMiddle operator()(const Point& point) const {
+    return {Point{Vec3<double>::Zero()}, map.image(point.position),
             map.loss_of_image(point.position)};
   }
-  AboutMiddle operator()(const Segment<double>& segment) const { return of_corners(segment); }
-  AboutMiddle operator()(const Triangle<double>& triangle) const { return of_corners(triangle); }
-  AboutMiddle operator()(const Hull<double>& hull) const {
+  AboutMiddle operator()(const Segment& segment) const { return of_corners(segment); }
+  AboutMiddle operator()(const Triangle& triangle) const { return of_corners(triangle); }
+  AboutMiddle operator()(const Hull& hull) const {
     Bounds<double> bounds;
     for (const Vec3<double>& p : hull.points.points()) bounds.extend(p);
     if (map.linear.is_identity() && !is_far(bounds)) return {hull, map.translation, map.loss};
     PointsAboutMiddle moved = points_about_middle(hull.points.points(), map);
-    return {Hull<double>{PointCloud<double>(std::move(moved.points))}, moved.middle, moved.loss};
+    return {Hull{PointCloud(std::move(moved.points))}, moved.middle, moved.loss};
   }
 
-  AboutMiddle operator()(const CutCylinder<double>& cylinder) const {
-    CutCylinder<double> moved = cylinder;
+  AboutMiddle operator()(const CutCylinder& cylinder) const {
+    CutCylinder moved = cylinder;
     const Vec3<double> middle(0, 0, cylinder.heights[0] / 2 + cylinder.heights[1] / 2);
     for (double& height : moved.heights) height -= middle.z();
     return {under(map.linear.high, moved), map.image(middle),
@@ -56,7 +56,7 @@ struct Rebuilder {
   }
 
   /// Finds the box by its own support points.
-  AboutMiddle operator()(const Custom<double>& custom) const {
+  AboutMiddle operator()(const Custom& custom) const {
     Bounds<double> bounds;
     for (int axis = 0; axis < 3; ++axis) {
       bounds.upper[axis] = custom.support(Vec3<double>(Vec3<double>::Unit(axis)))[axis];
@@ -67,64 +67,60 @@ struct Rebuilder {
     if (!is_far(bounds))
       return {under(map.linear.high, custom), map.translation, map.loss_of_image(middle) + turns};
     constexpr double lost = 4 * std::numeric_limits<double>::epsilon();
-    return {Transform<double>{Shape<double>(custom),
-                              Affine<double>{map.linear.high, -(map.linear.high * middle)}},
+    return {Transform{Shape(custom), Affine<double>{map.linear.high, -(map.linear.high * middle)}},
             map.image(middle),
             map.loss_of_image(middle) + turns + lost * map.stretch() * length_of(middle)};
   }
 
-  AboutMiddle operator()(const Rounded<double>& rounded) const {
+  AboutMiddle operator()(const Rounded& rounded) const {
     AboutMiddle core = about_middle(*rounded.shape, map);
     const double similarity = similarity_of(map);
     if (similarity > 0)
-      core.shape = Rounded<double>{rounded.radius * similarity, Nested<double>(core.shape)};
+      core.shape = Rounded{rounded.radius * similarity, Nested(core.shape)};
     else
-      core.shape = MinkowskiSum<double>{
-          {Nested<double>(core.shape),
-           Nested<double>(under(map.linear.high, Sphere<double>{rounded.radius}))}};
-    core.loss += loss_of_turns(Sphere<double>{rounded.radius}, map, similarity);
+      core.shape = MinkowskiSum{
+          {Nested(core.shape), Nested(under(map.linear.high, Sphere{rounded.radius}))}};
+    core.loss += loss_of_turns(Sphere{rounded.radius}, map, similarity);
     return core;
   }
 
-  AboutMiddle operator()(const MinkowskiSum<double>& sum) const {
-    MinkowskiSum<double> moved;
-    AboutMiddle found{Point<double>{}, map.translation, map.loss};
-    for (const Nested<double>& operand : sum.shapes)
-      moved.shapes.push_back(
-          Nested<double>(add(about_middle(*operand, map.about_origin()), found)));
+  AboutMiddle operator()(const MinkowskiSum& sum) const {
+    MinkowskiSum moved;
+    AboutMiddle found{Point{}, map.translation, map.loss};
+    for (const Nested& operand : sum.shapes)
+      moved.shapes.push_back(Nested(add(about_middle(*operand, map.about_origin()), found)));
     found.shape = std::move(moved);
     return found;
   }
-  AboutMiddle operator()(const MinkowskiDifference<double>& difference) const {
-    AboutMiddle found{Point<double>{}, map.translation, map.loss};
+  AboutMiddle operator()(const MinkowskiDifference& difference) const {
+    AboutMiddle found{Point{}, map.translation, map.loss};
     AboutMiddle b = about_middle(*difference.b, map.about_origin());
     b.middle = -b.middle;
-    const Nested<double> of_a(add(about_middle(*difference.a, map.about_origin()), found)),
+    const Nested of_a(add(about_middle(*difference.a, map.about_origin()), found)),
         of_b(add(b, found));
-    found.shape = MinkowskiDifference<double>{of_a, of_b};
+    found.shape = MinkowskiDifference{of_a, of_b};
     return found;
   }
 
-  AboutMiddle operator()(const HullOf<double>& hull) const {
-    HullOf<double> moved;
-    AboutMiddle found{Point<double>{}, {}, 0};
-    for (const Nested<double>& operand : hull.shapes) {
+  AboutMiddle operator()(const HullOf& hull) const {
+    HullOf moved;
+    AboutMiddle found{Point{}, {}, 0};
+    for (const Nested& operand : hull.shapes) {
       const AboutMiddle one = about_middle(*operand, map);
       if (moved.shapes.empty()) found.middle = one.middle;
       found.loss = std::max(found.loss, one.loss);
-      moved.shapes.push_back(
-          Nested<double>(moved_by(one.shape, (one.middle - found.middle).rounded())));
+      moved.shapes.push_back(Nested(moved_by(one.shape, (one.middle - found.middle).rounded())));
     }
     found.shape = std::move(moved);
     return found;
   }
 
-  AboutMiddle operator()(const Transform<double>& shape) const {
+  AboutMiddle operator()(const Transform& shape) const {
     return about_middle(*shape.shape, map * ComposedMap(shape.map.affine()));
   }
 
  private:
-  static const Shape<double>& add(const AboutMiddle& operand, AboutMiddle& sum) {
+  static const Shape& add(const AboutMiddle& operand, AboutMiddle& sum) {
     sum.middle = sum.middle + operand.middle;
     sum.loss += operand.loss;
     return operand.shape;
@@ -145,43 +141,40 @@ struct Mover {
   const Vec3<double>& way;
 
   template <class S>
-  Shape<double> operator()(const S& shape) const {
-    return Transform<double>{Shape<double>(shape), Affine<double>{Mat3<double>::Identity(), way}};
+  Shape operator()(const S& shape) const {
+    return Transform{Shape(shape), Affine<double>{Mat3<double>::Identity(), way}};
   }
-  Shape<double> operator()(const Point<double>& point) const {
-    return Point<double>{Vec3<double>(point.position + way)};
-  }
-  Shape<double> operator()(const Transform<double>& shape) const {
+  Shape operator()(const Point& point) const { return Point{Vec3<double>(point.position + way)}; }
+  Shape operator()(const Transform& shape) const {
     Affine<double> map = shape.map.affine();
     map.translation += way;
-    return Transform<double>{shape.shape, map};
+    return Transform{shape.shape, map};
   }
-  Shape<double> operator()(const Rounded<double>& rounded) const {
-    return Rounded<double>{rounded.radius, Nested<double>(moved_by(*rounded.shape, way))};
+  Shape operator()(const Rounded& rounded) const {
+    return Rounded{rounded.radius, Nested(moved_by(*rounded.shape, way))};
   }
-  Shape<double> operator()(const MinkowskiSum<double>& sum) const {
-    MinkowskiSum<double> moved = sum;
-    moved.shapes.front() = Nested<double>(moved_by(*sum.shapes.front(), way));
+  Shape operator()(const MinkowskiSum& sum) const {
+    MinkowskiSum moved = sum;
+    moved.shapes.front() = Nested(moved_by(*sum.shapes.front(), way));
     return moved;
   }
-  Shape<double> operator()(const MinkowskiDifference<double>& difference) const {
-    return MinkowskiDifference<double>{Nested<double>(moved_by(*difference.a, way)), difference.b};
+  Shape operator()(const MinkowskiDifference& difference) const {
+    return MinkowskiDifference{Nested(moved_by(*difference.a, way)), difference.b};
   }
-  Shape<double> operator()(const HullOf<double>& hull) const {
-    HullOf<double> moved;
-    for (const Nested<double>& shape : hull.shapes)
-      moved.shapes.push_back(Nested<double>(moved_by(*shape, way)));
+  Shape operator()(const HullOf& hull) const {
+    HullOf moved;
+    for (const Nested& shape : hull.shapes) moved.shapes.push_back(Nested(moved_by(*shape, way)));
     return moved;
   }
 };
 
 }  // namespace
 
-AboutMiddle about_middle(const Shape<double>& shape, const ComposedMap& map) {
+AboutMiddle about_middle(const Shape& shape, const ComposedMap& map) {
   return std::visit(Rebuilder{map}, shape.kind);
 }
 
-double loss_of_turns(const Shape<double>& shape, const ComposedMap& map, double similarity) {
+double loss_of_turns(const Shape& shape, const ComposedMap& map, double similarity) {
   const double error =
       similarity > 0 ? map.turn_error - rounding_of_turns * map.stretch() : map.turn_error;
   if (!(error > 0)) return 0;
@@ -193,7 +186,7 @@ double loss_of_turns(const Shape<double>& shape, const ComposedMap& map, double 
   return error * length_of(reach);
 }
 
-Shape<double> moved_by(const Shape<double>& shape, const Vec3<double>& way) {
+Shape moved_by(const Shape& shape, const Vec3<double>& way) {
   if (way.isZero(0)) return shape;
   return std::visit(Mover{way}, shape.kind);
 }

@@ -11,7 +11,7 @@ namespace {
 
 using namespace cores;
 /// Uses the support mapping, about the middle of a box found with it.
-CoreAndRadius of_other(const Shape<double>& shape, const ComposedMap& map, double radius) {
+CoreAndRadius of_other(const Shape& shape, const ComposedMap& map, double radius) {
   const AboutMiddle about = about_middle(shape, map);
   Vec3<double> low, high;
   for (int axis = 0; axis < 3; ++axis) {
@@ -21,7 +21,7 @@ CoreAndRadius of_other(const Shape<double>& shape, const ComposedMap& map, doubl
   const Vec3<double> middle = low + (high - low) / 2;
   const TwoFoldVec3<double> place = about.middle + TwoFoldVec3<double>(middle);
   if (low == high) return of_point(place, radius, about.loss);
-  auto about_middle = std::make_shared<Shape<double>>(moved_by(about.shape, -middle));
+  auto about_middle = std::make_shared<Shape>(moved_by(about.shape, -middle));
   ShapeCore core;
   core.kind = CoreKind::other;
   core.radius = radius;
@@ -53,7 +53,7 @@ Numbers scaled_down(const Numbers& numbers, int exponent) {
 double similarity_of(const Mat3<double>& linear) {
   const int exponent = exponent_of_largest(linear);
   const Affine<double> map{scaled_down(linear, exponent), Vec3<double>::Zero()};
-  return std::ldexp(AffineMap<double>(map).similarity(), exponent);
+  return std::ldexp(AffineMap(map).similarity(), exponent);
 }
 
 /// True if the map keeps the coordinate axes at right angles, but for a few roundings: boxes stay
@@ -71,16 +71,15 @@ bool keeps_right_angles(const Mat3<double>& linear) {
   return true;
 }
 
-CoreAndRadius find(const Shape<double>& shape, const ComposedMap& map, double radius);
+CoreAndRadius find(const Shape& shape, const ComposedMap& map, double radius);
 
 /// True if the shape is about its origin: neither points nor other shapes are moved.
-bool is_about_origin(const Shape<double>& shape) {
-  const auto is_within = []<class... Kinds>(const Shape<double>& one, std::variant<Kinds...>*) {
+bool is_about_origin(const Shape& shape) {
+  const auto is_within = []<class... Kinds>(const Shape& one, std::variant<Kinds...>*) {
     return (std::holds_alternative<Kinds>(one.kind) || ...);
   };
-  using Others = std::variant<Point<double>, Segment<double>, Triangle<double>, Hull<double>,
-                              Transform<double>, Rounded<double>, HullOf<double>,
-                              MinkowskiSum<double>, MinkowskiDifference<double>>;
+  using Others = std::variant<Point, Segment, Triangle, Hull, Transform, Rounded, HullOf,
+                              MinkowskiSum, MinkowskiDifference>;
   return !is_within(shape, static_cast<Others*>(nullptr));
 }
 
@@ -89,7 +88,7 @@ bool is_about_origin(const Shape<double>& shape) {
 class BallsAndOne {
  public:
   /// Returns false if the sum is no longer of that kind.
-  bool add(const Shape<double>& operand, const ComposedMap& about_origin) {
+  bool add(const Shape& operand, const ComposedMap& about_origin) {
     CoreAndRadius one = find(operand, about_origin, 0);
     offset_ = offset_ + TwoFoldVec3<double>(one.middle, one.middle_low);
     radius_ += one.core.radius;
@@ -157,23 +156,23 @@ struct CoreFinder {
   bool find(const S&, CoreAndRadius&) const {
     return false;
   }
-  bool find(const Point<double>& shape, CoreAndRadius& found) const {
+  bool find(const Point& shape, CoreAndRadius& found) const {
     found = of_point(map.image(shape.position), radius, map.loss_of_image(shape.position));
     return true;
   }
-  bool find(const Segment<double>& shape, CoreAndRadius& found) const {
+  bool find(const Segment& shape, CoreAndRadius& found) const {
     found = of_points({shape.points.begin(), shape.points.end()}, map, radius);
     return true;
   }
-  bool find(const Triangle<double>& shape, CoreAndRadius& found) const {
+  bool find(const Triangle& shape, CoreAndRadius& found) const {
     found = of_points({shape.points.begin(), shape.points.end()}, map, radius);
     return true;
   }
-  bool find(const Hull<double>& shape, CoreAndRadius& found) const {
+  bool find(const Hull& shape, CoreAndRadius& found) const {
     found = of_points(shape.points.points(), map, radius);
     return true;
   }
-  bool find(const Box<double>& shape, CoreAndRadius& found) const {
+  bool find(const Box& shape, CoreAndRadius& found) const {
     ShapeCore core;
     core.kind = CoreKind::box;
     core.size = shape.half_extents;
@@ -182,13 +181,12 @@ struct CoreFinder {
     found.core.ball = length_of<double>(found.core.size) * padding;
     return true;
   }
-  bool find(const Sphere<double>& shape, CoreAndRadius& found) const {
-    if (!(similarity > 0))
-      return find(Ellipsoid<double>{Vec3<double>::Constant(shape.radius)}, found);
+  bool find(const Sphere& shape, CoreAndRadius& found) const {
+    if (!(similarity > 0)) return find(Ellipsoid{Vec3<double>::Constant(shape.radius)}, found);
     found = of_point(map.translation, radius + shape.radius * similarity, map.loss);
     return true;
   }
-  bool find(const Ellipsoid<double>& shape, CoreAndRadius& found) const {
+  bool find(const Ellipsoid& shape, CoreAndRadius& found) const {
     ShapeCore core;
     core.kind = CoreKind::ellipsoid;
     core.size = shape.radii;
@@ -201,7 +199,7 @@ struct CoreFinder {
       found.core.ball = radii.maxCoeff() * padding;
     return true;
   }
-  bool find(const Capsule<double>& shape, CoreAndRadius& found) const {
+  bool find(const Capsule& shape, CoreAndRadius& found) const {
     if (!(similarity > 0)) return false;
     found = upright_segment(shape.half_height, radius + shape.radius * similarity);
     return true;
@@ -215,23 +213,23 @@ struct CoreFinder {
     found = scaled(of_disks(below, above, half_height));
     return true;
   }
-  bool find(const Disk<double>& shape, CoreAndRadius& found) const {
+  bool find(const Disk& shape, CoreAndRadius& found) const {
     return disks(shape.radius, shape.radius, 0, found);
   }
-  bool find(const Cylinder<double>& shape, CoreAndRadius& found) const {
+  bool find(const Cylinder& shape, CoreAndRadius& found) const {
     return disks(shape.radius, shape.radius, shape.half_height, found);
   }
-  bool find(const Cone<double>& shape, CoreAndRadius& found) const {
+  bool find(const Cone& shape, CoreAndRadius& found) const {
     return disks(shape.radius, 0, shape.half_height, found);
   }
-  bool find(const Frustum<double>& shape, CoreAndRadius& found) const {
+  bool find(const Frustum& shape, CoreAndRadius& found) const {
     return disks(shape.radii[0], shape.radii[1], shape.half_height, found);
   }
-  bool find(const TaperedCapsule<double>& shape, CoreAndRadius& found) const {
+  bool find(const TaperedCapsule& shape, CoreAndRadius& found) const {
     if (!(similarity > 0)) return false;
-    const TaperedCapsule<double> upright{{shape.radii[0] * similarity, shape.radii[1] * similarity},
-                                         shape.half_height * similarity};
-    found = of_other(Shape<double>(upright), {}, radius);
+    const TaperedCapsule upright{{shape.radii[0] * similarity, shape.radii[1] * similarity},
+                                 shape.half_height * similarity};
+    found = of_other(Shape(upright), {}, radius);
     found.core.is_round = true;
     found.turn = linear() / similarity;
     const TwoFoldVec3<double> middle =
@@ -241,24 +239,24 @@ struct CoreFinder {
     found.core.rounding += map.loss;
     return true;
   }
-  bool find(const Rounded<double>& shape, CoreAndRadius& found) const {
+  bool find(const Rounded& shape, CoreAndRadius& found) const {
     if (!(similarity > 0)) return false;
     found = minkray::find(*shape.shape, map, radius + shape.radius * similarity);
     return true;
   }
-  bool find(const HullOf<double>& shape, CoreAndRadius& found) const {
+  bool find(const HullOf& shape, CoreAndRadius& found) const {
     if (shape.shapes.size() > 1) return false;
     found = minkray::find(*shape.shapes.front(), map, radius);
     return true;
   }
-  bool find(const MinkowskiSum<double>& shape, CoreAndRadius& found) const {
+  bool find(const MinkowskiSum& shape, CoreAndRadius& found) const {
     BallsAndOne sum;
-    for (const Nested<double>& operand : shape.shapes)
+    for (const Nested& operand : shape.shapes)
       if (!sum.add(*operand, map.about_origin())) return false;
     found = sum.of(map, radius);
     return true;
   }
-  bool find(const MinkowskiDifference<double>& shape, CoreAndRadius& found) const {
+  bool find(const MinkowskiDifference& shape, CoreAndRadius& found) const {
     BallsAndOne sum;
     const ComposedMap about_origin = map.about_origin();
     if (!sum.add(*shape.a, about_origin) || !sum.add(*shape.b, about_origin.mirrored()))
@@ -266,13 +264,13 @@ struct CoreFinder {
     found = sum.of(map, radius);
     return true;
   }
-  bool find(const Transform<double>& shape, CoreAndRadius& found) const {
+  bool find(const Transform& shape, CoreAndRadius& found) const {
     found = minkray::find(*shape.shape, map * ComposedMap(shape.map.affine()), radius);
     return true;
   }
 };
 
-CoreAndRadius find(const Shape<double>& shape, const ComposedMap& map, double radius) {
+CoreAndRadius find(const Shape& shape, const ComposedMap& map, double radius) {
   const double similarity = similarity_of(map.linear.high);
   const CoreFinder finder{map, radius, similarity};
   CoreAndRadius found;
@@ -285,7 +283,7 @@ CoreAndRadius find(const Shape<double>& shape, const ComposedMap& map, double ra
 
 }  // namespace
 
-CoreAndRadius core_and_radius(const Shape<double>& shape, const Affine<double>& map) {
+CoreAndRadius core_and_radius(const Shape& shape, const Affine<double>& map) {
   return find(shape, ComposedMap(map), 0);
 }
 

@@ -35,7 +35,7 @@ struct ShapeCore {
   const double* x = nullptr;  ///< a hull's points, coordinate by coordinate
   const double* y = nullptr;
   const double* z = nullptr;
-  const Shape<double>* shape = nullptr;  ///< of `other`
+  const Shape* shape = nullptr;  ///< of `other`
 };
 
 /// Immutable and shared: copies are cheap.
@@ -51,6 +51,6 @@ struct CoreAndRadius {
 /// Affine maps that keep angles, and radii, are taken off, also points and balls that are added to
 /// a shape; what is under any other map is `other`, but points, balls, boxes and ellipsoids along
 /// the axes of a scale, and hulls.
-CoreAndRadius core_and_radius(const Shape<double>& shape, const Affine<double>& map = {});
+CoreAndRadius core_and_radius(const Shape& shape, const Affine<double>& map = {});
 
 }  // namespace minkray

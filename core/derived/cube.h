@@ -7,9 +7,8 @@
 namespace minkray {
 
 /// A cube around the origin, with sides of twice that length.
-template <class T>
-Shape<T> cube_of(T half) {
-  return Box<T>{Vec3<T>::Constant(half)};
+inline Shape cube_of(double half) {
+  return Box{Vec3<double>::Constant(half)};
 }
 
 }  // namespace minkray

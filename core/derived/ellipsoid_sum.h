@@ -86,8 +86,8 @@ EllipsoidSum<W> sum_of(EllipsoidSum<W> a, const EllipsoidSum<W>& b, const Vec3<W
   return a;
 }
 
-template <class W, class T>
-EllipsoidSum<W> touching_sum(const Shape<T>& shape, const Vec3<W>& n);
+template <class W>
+EllipsoidSum<W> touching_sum(const Shape& shape, const Vec3<W>& n);
 
 namespace detail {
 
@@ -104,24 +104,24 @@ EllipsoidSum<W> sum_of_kind(const S& shape, const Vec3<W>& n) {
   return sum;
 }
 
-template <class W, class T>
-EllipsoidSum<W> sum_of_kind(const Rounded<T>& shape, const Vec3<W>& n) {
+template <class W>
+EllipsoidSum<W> sum_of_kind(const Rounded& shape, const Vec3<W>& n) {
   EllipsoidSum<W> sum = touching_sum<W>(*shape.shape, n);
   sum.s += unit<W>(n) * W(shape.radius);
   sum.add(Mat3<W>(Mat3<W>::Identity() * W(shape.radius)), n);
   return sum;
 }
 
-template <class W, class T>
-EllipsoidSum<W> sum_of_kind(const MinkowskiSum<T>& sum, const Vec3<W>& n) {
+template <class W>
+EllipsoidSum<W> sum_of_kind(const MinkowskiSum& sum, const Vec3<W>& n) {
   EllipsoidSum<W> total = touching_sum<W>(*sum.shapes.front(), n);
   for (std::size_t i = 1; i < sum.shapes.size(); ++i)
     total = sum_of<W>(total, touching_sum<W>(*sum.shapes[i], n), n);
   return total;
 }
 
-template <class W, class T>
-EllipsoidSum<W> sum_of_kind(const MinkowskiDifference<T>& obstacle, const Vec3<W>& n) {
+template <class W>
+EllipsoidSum<W> sum_of_kind(const MinkowskiDifference& obstacle, const Vec3<W>& n) {
   EllipsoidSum<W> mirrored = touching_sum<W>(*obstacle.b, Vec3<W>(-n));
   mirrored.c = -mirrored.c;
   mirrored.s = -mirrored.s;
@@ -129,8 +129,8 @@ EllipsoidSum<W> sum_of_kind(const MinkowskiDifference<T>& obstacle, const Vec3<W
   return sum_of<W>(touching_sum<W>(*obstacle.a, n), mirrored, n);
 }
 
-template <class W, class T>
-EllipsoidSum<W> sum_of_kind(const HullOf<T>& hull, const Vec3<W>& n) {
+template <class W>
+EllipsoidSum<W> sum_of_kind(const HullOf& hull, const Vec3<W>& n) {
   EllipsoidSum<W> best = touching_sum<W>(*hull.shapes.front(), n);
   W furthest = best.s.dot(n);
   for (std::size_t i = 1; i < hull.shapes.size(); ++i) {
@@ -143,8 +143,8 @@ EllipsoidSum<W> sum_of_kind(const HullOf<T>& hull, const Vec3<W>& n) {
   return best;
 }
 
-template <class W, class T>
-EllipsoidSum<W> sum_of_kind(const Transform<T>& moved, const Vec3<W>& n) {
+template <class W>
+EllipsoidSum<W> sum_of_kind(const Transform& moved, const Vec3<W>& n) {
   EllipsoidSum<W> sum = touching_sum<W>(*moved.shape, moved.map.inner_direction(n));
   sum.c = moved.map(sum.c);
   sum.s = moved.map(sum.s);
@@ -156,31 +156,26 @@ EllipsoidSum<W> sum_of_kind(const Transform<T>& moved, const Vec3<W>& n) {
 }  // namespace detail
 
 /// The part of the shape that it touches its supporting plane of direction n with.
-template <class W, class T>
-EllipsoidSum<W> touching_sum(const Shape<T>& shape, const Vec3<W>& n) {
+template <class W>
+EllipsoidSum<W> touching_sum(const Shape& shape, const Vec3<W>& n) {
   return std::visit([&](const auto& kind) { return detail::sum_of_kind<W>(kind, n); }, shape.kind);
 }
 
-extern template EllipsoidSum<float> touching_sum(const Shape<float>&, const Vec3<float>&);
-extern template EllipsoidSum<double> touching_sum(const Shape<double>&, const Vec3<double>&);
-
 /// True if the shape is the hull of such sums, judged by a few directions.
-template <class T>
-bool has_exact_sums(const Shape<T>& shape) {
+inline bool has_exact_sums(const Shape& shape) {
   for (int i = 0; i < tilted_directions; ++i)
-    if (!touching_sum<T>(shape, tilted_direction<T>(i)).exact) return false;
+    if (!touching_sum<double>(shape, tilted_direction<double>(i)).exact) return false;
   return true;
 }
 
 /// True if the shape is one such sum, without flat summands, judged by a few directions.
-template <class T>
-bool is_ellipsoid_sum(const Shape<T>& shape) {
-  const EllipsoidSum<T> first = touching_sum<T>(shape, tilted_direction<T>(0));
+inline bool is_ellipsoid_sum(const Shape& shape) {
+  const EllipsoidSum<double> first = touching_sum<double>(shape, tilted_direction<double>(0));
   if (first.used == 0) return false;
   for (std::size_t k = 0; k < first.used; ++k)
-    if (first.F[k].col(2).isZero(T(0))) return false;
+    if (first.F[k].col(2).isZero(0)) return false;
   for (int i = 0; i < tilted_directions; ++i) {
-    const EllipsoidSum<T> sum = touching_sum<T>(shape, tilted_direction<T>(i));
+    const EllipsoidSum<double> sum = touching_sum<double>(shape, tilted_direction<double>(i));
     if (!sum.exact || sum.c != first.c || sum.F != first.F) return false;
   }
   return true;

@@ -13,21 +13,16 @@ namespace {
 
 /// Limits longest to thinnest for shapes that lie along the axes: their supports are products with
 /// each axis' own length, which rounding leaves as precise as that length.
-template <class T>
-constexpr double most_along_axes = std::is_same_v<T, float> ? 0x1p13 : 0x1p20;
+constexpr double most_along_axes = 0x1p20;
 /// Points may lie askew: their coordinates are rounded to the longest.
 constexpr double most_askew = 0x1p12;
-
-/// The longest to the thinnest of flat points in float that are answered in float: at 1 : 80 a ray
-/// nearly in their plane was seen to leave them 6e-4 of their length outside.
-constexpr double most_in_float = 0x1p6;
 
 /// The longest to what it is rounded by: what is hardly rounded is nearly a sharp edge.
 constexpr double most_to_rounding = 0x1p20;
 
 /// Least excess of a superellipsoid's exponent over 1: below, its edges are curved so much more
-/// than its faces that a model which agrees with one of its planes may still be far off (at 2^-13
-/// in float and 2^-14 in double). At 1 it has corners, which are known.
+/// than its faces that a model which agrees with one of its planes may still be far off (at 2^-14).
+/// At 1 it has corners, which are known.
 constexpr double least_above_1 = 0x1p-10;
 
 /// The longest over the thinnest; 1 if there is nothing but one length. `flat`: lengths up to it
@@ -39,25 +34,22 @@ double ratio_of(Vec3<long double> lengths, double flat) {
   return 1;
 }
 
-/// Half of a box's sides: in T, and in double, half of the least number is rounded to nothing.
-template <class T>
-Vec3<long double> half_extents_of(const Bounds<T>& bounds) {
-  return (bounds.upper.template cast<long double>() - bounds.lower.template cast<long double>()) /
-         2;
+/// Half of a box's sides: in double, half of the least number is rounded to nothing.
+Vec3<long double> half_extents_of(const Bounds<double>& bounds) {
+  return (bounds.upper.cast<long double>() - bounds.lower.cast<long double>()) / 2;
 }
 
 /// Half of a shape's lengths: those of its box.
-template <class T, class S>
+template <class S>
 Vec3<long double> half_lengths_of(const S& shape) {
-  return half_extents_of(bounds_of<T>(shape));
+  return half_extents_of(bounds_of(shape));
 }
 
 /// Slanted planes lie nearer to one another than their box is high: half of the way across them
 /// takes the place of the least length, where they are furthest apart.
-template <class T>
-Vec3<long double> half_lengths_of(const CutCylinder<T>& shape) {
+Vec3<long double> half_lengths_of(const CutCylinder& shape) {
   using Long = long double;
-  Vec3<Long> lengths = half_extents_of(bounds_of<T>(shape));
+  Vec3<Long> lengths = half_extents_of(bounds_of(shape));
   std::sort(lengths.begin(), lengths.end());
   const auto& lower = shape.lower_slope;
   const auto& upper = shape.upper_slope;
@@ -70,13 +62,12 @@ Vec3<long double> half_lengths_of(const CutCylinder<T>& shape) {
 }
 
 /// Exactly, up to the rounding of long double.
-template <class T>
-bool is_on_a_line(std::span<const Vec3<T>> points) {
+bool is_on_a_line(std::span<const Vec3<double>> points) {
   using Long = long double;
-  const Vec3<Long> first = points[0].template cast<Long>();
+  const Vec3<Long> first = points[0].cast<Long>();
   Vec3<Long> along = Vec3<Long>::Zero();
-  for (const Vec3<T>& p : points) {
-    const Vec3<Long> edge = p.template cast<Long>() - first;
+  for (const Vec3<double>& p : points) {
+    const Vec3<Long> edge = p.cast<Long>() - first;
     if (along.isZero(0)) along = edge;
     if (!along.cross(edge).isZero(0)) return false;
   }
@@ -91,55 +82,49 @@ struct Spread {
 };
 
 /// Scales the points, so that squares stay in range.
-template <class T>
-Spread spread_of(std::span<const Vec3<T>> points) {
-  Vec3<double> lower = points[0].template cast<double>(), upper = lower;
-  for (const Vec3<T>& p : points) {
-    lower = lower.cwiseMin(p.template cast<double>());
-    upper = upper.cwiseMax(p.template cast<double>());
+Spread spread_of(std::span<const Vec3<double>> points) {
+  Vec3<double> lower = points[0], upper = lower;
+  for (const Vec3<double>& p : points) {
+    lower = lower.cwiseMin(p);
+    upper = upper.cwiseMax(p);
   }
   const double size = (upper - lower).maxCoeff();
   if (!(size > 0) || !std::isfinite(size)) return {size};
   // About their mean, which lies in the plane if they all do.
   Vec3<double> mean = Vec3<double>::Zero();
-  for (const Vec3<T>& p : points) mean += (p.template cast<double>() - lower) / size;
+  for (const Vec3<double>& p : points) mean += (p - lower) / size;
   mean /= double(points.size());
-  const auto scaled = [&](const Vec3<T>& p) -> Vec3<double> {
-    return (p.template cast<double>() - lower) / size - mean;
+  const auto scaled = [&](const Vec3<double>& p) -> Vec3<double> {
+    return (p - lower) / size - mean;
   };
   Mat3<double> spread = Mat3<double>::Zero();
-  for (const Vec3<T>& p : points) spread += scaled(p) * scaled(p).transpose();
+  for (const Vec3<double>& p : points) spread += scaled(p) * scaled(p).transpose();
   const Mat3<double> axes = principal_axes(spread / double(points.size())).axes;
   Vec3<double> least = axes.transpose() * scaled(points[0]), most = least;
-  for (const Vec3<T>& p : points) {
+  for (const Vec3<double>& p : points) {
     const Vec3<double> along = axes.transpose() * scaled(p);
     least = least.cwiseMin(along);
     most = most.cwiseMax(along);
   }
   constexpr double roundings = 64;  // of coordinates, a turn, and axes that are rounded as well
   const double coordinate = std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
-  const double flat = roundings * double(std::numeric_limits<T>::epsilon()) * coordinate / size;
+  const double flat = roundings * std::numeric_limits<double>::epsilon() * coordinate / size;
   Vec3<double> lengths = most - least;
   std::sort(lengths.begin(), lengths.end());
   return {size, lengths, flat};
 }
 
 /// A needle that is thinner than rounding both ways, but no segment.
-template <class T>
-bool is_lost_needle(const Spread& spread, std::span<const Vec3<T>> points) {
+bool is_lost_needle(const Spread& spread, std::span<const Vec3<double>> points) {
   return spread.lengths[1] <= spread.flat &&
-         spread.lengths[1] * most_along_axes<T> <= spread.lengths[2] && !is_on_a_line(points);
+         spread.lengths[1] * most_along_axes <= spread.lengths[2] && !is_on_a_line(points);
 }
 
-template <class T>
-double ratio_of_points(std::span<const Vec3<T>> points) {
+double ratio_of_points(std::span<const Vec3<double>> points) {
   const Spread spread = spread_of(points);
   if (!(spread.size > 0)) return 1;
   if (!std::isfinite(spread.size)) return spread.size;
-  // Not in float, whose rays are rounded as coarsely: in double, a cast would find that they pass
-  // it by.
-  if (std::is_same_v<T, double> && is_lost_needle(spread, points))
-    return std::numeric_limits<double>::infinity();
+  if (is_lost_needle(spread, points)) return std::numeric_limits<double>::infinity();
   return ratio_of(spread.lengths.cast<long double>(), spread.flat);
 }
 
@@ -149,21 +134,19 @@ struct Stretch {
   double ratio() const { return most / least; }
 };
 
-template <class T>
-Stretch operator*(const Stretch& outer, const Mat3<T>& linear) {
-  const Mat3<double>& M = linear.template cast<double>();
-  const double size = M.cwiseAbs().maxCoeff();
+Stretch operator*(const Stretch& outer, const Mat3<double>& linear) {
+  const double size = linear.cwiseAbs().maxCoeff();
   const Vec3<double> squares =
-      principal_axes((M / size).transpose() * (M / size)).values.cwiseMax(0.0);
+      principal_axes((linear / size).transpose() * (linear / size)).values.cwiseMax(0.0);
   return {outer.most * size * std::sqrt(squares[2]), outer.least * size * std::sqrt(squares[0])};
 }
 
 /// True if points are so close along an axis that the products of that length and their size have
 /// lost digits: planes through such points lean by more than rounding.
-template <class T>
-bool loses_digits(const Bounds<T>& bounds) {
+bool loses_digits(const Bounds<double>& bounds) {
   const Vec3<long double> lengths = half_extents_of(bounds);
-  constexpr long double least = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon();
+  constexpr long double least =
+      std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
   const long double limit = least * lengths.maxCoeff();
   return std::any_of(lengths.begin(), lengths.end(),
                      [&](long double length) { return length > 0 && length < limit; });
@@ -181,26 +164,25 @@ struct Seen {
   }
 };
 
-template <class T>
-void look_at(const Shape<T>& shape, const Stretch& stretch, Seen& seen) {
-  const auto look_at_points = [&](const auto& kind, std::span<const Vec3<T>> points) {
-    seen.extreme_operand |= ratio_of_points<T>(points) * stretch.ratio() > most_askew;
-    const Bounds<T> bounds = bounds_of<T>(kind);
+void look_at(const Shape& shape, const Stretch& stretch, Seen& seen) {
+  const auto look_at_points = [&](const auto& kind, std::span<const Vec3<double>> points) {
+    seen.extreme_operand |= ratio_of_points(points) * stretch.ratio() > most_askew;
+    const Bounds<double> bounds = bounds_of(kind);
     seen.lost_digits |= loses_digits(bounds);
     seen.add(double(bounds.half_extents().maxCoeff()), stretch);
   };
   std::visit(
       [&]<class S>(const S& kind) {
-        if constexpr (std::is_same_v<S, Transform<T>>) {
+        if constexpr (std::is_same_v<S, Transform>) {
           look_at(*kind.shape, stretch * kind.map.affine().linear, seen);
-        } else if constexpr (std::is_same_v<S, Hull<T>>) {
+        } else if constexpr (std::is_same_v<S, Hull>) {
           look_at_points(kind, kind.points.points());
-        } else if constexpr (std::is_same_v<S, Triangle<T>> || std::is_same_v<S, Segment<T>>) {
+        } else if constexpr (std::is_same_v<S, Triangle> || std::is_same_v<S, Segment>) {
           look_at_points(kind, kind.points);
-        } else if constexpr (std::is_same_v<S, Rounded<T>>) {
+        } else if constexpr (std::is_same_v<S, Rounded>) {
           // A shape rounded by that radius is at least that thick, however thin its core.
           const double radius = double(kind.radius);
-          const double size = double(bounds_of<T>(*kind.shape).half_extents().maxCoeff());
+          const double size = bounds_of(*kind.shape).half_extents().maxCoeff();
           if (radius * most_askew > size) {
             Seen core;
             look_at(*kind.shape, stretch, core);
@@ -213,18 +195,17 @@ void look_at(const Shape<T>& shape, const Stretch& stretch, Seen& seen) {
             if (radius > 0)
               seen.least_rounding = std::min(seen.least_rounding, radius * stretch.least);
           }
-        } else if constexpr (std::is_same_v<S, MinkowskiDifference<T>>) {
+        } else if constexpr (std::is_same_v<S, MinkowskiDifference>) {
           look_at(*kind.a, stretch, seen);
           look_at(*kind.b, stretch, seen);
-        } else if constexpr (std::is_same_v<S, MinkowskiSum<T>> || std::is_same_v<S, HullOf<T>>) {
-          for (const Nested<T>& operand : kind.shapes) look_at(*operand, stretch, seen);
+        } else if constexpr (std::is_same_v<S, MinkowskiSum> || std::is_same_v<S, HullOf>) {
+          for (const Nested& operand : kind.shapes) look_at(*operand, stretch, seen);
         } else {
-          if constexpr (std::is_same_v<S, Superellipsoid<T>>)
-            seen.nearly_sharp |= kind.exponent > T(1) && kind.exponent < T(1 + least_above_1);
-          const Vec3<long double> lengths = half_lengths_of<T>(kind);
+          if constexpr (std::is_same_v<S, Superellipsoid>)
+            seen.nearly_sharp |= kind.exponent > 1.0 && kind.exponent < 1 + least_above_1;
+          const Vec3<long double> lengths = half_lengths_of(kind);
           // Slanted faces' rims lie askew.
-          constexpr double most =
-              std::is_same_v<S, CutCylinder<T>> ? most_askew : most_along_axes<T>;
+          constexpr double most = std::is_same_v<S, CutCylinder> ? most_askew : most_along_axes;
           seen.extreme_operand |= ratio_of(lengths, 0) * stretch.ratio() > most;
           for (const long double length : lengths) seen.add(double(length), stretch);
         }
@@ -232,55 +213,14 @@ void look_at(const Shape<T>& shape, const Stretch& stretch, Seen& seen) {
       shape.kind);
 }
 
-/// True if the shape is a hull or a triangle, mapped or not, whose points satisfy the condition.
-template <class AreThey>
-bool are_points_that(const Shape<float>& shape, const AreThey& are_they) {
-  return std::visit(
-      [&]<class S>(const S& kind) {
-        if constexpr (std::is_same_v<S, Transform<float>>)
-          return are_points_that(*kind.shape, are_they);
-        else if constexpr (std::is_same_v<S, Hull<float>>)
-          return are_they(kind.points.points());
-        else if constexpr (std::is_same_v<S, Triangle<float>>)
-          return are_they(std::span<const Vec3<float>>(kind.points));
-        else
-          return false;
-      },
-      shape.kind);
-}
-
 }  // namespace
 
-template <class T>
-bool has_extreme_proportions(const Shape<T>& shape) {
+bool has_extreme_proportions(const Shape& shape) {
   Seen seen;
   look_at(shape, Stretch(), seen);
   return seen.extreme_operand || seen.lost_digits || seen.nearly_sharp ||
-         seen.longest > most_along_axes<T> * seen.shortest ||
+         seen.longest > most_along_axes * seen.shortest ||
          seen.longest > most_to_rounding * seen.least_rounding;
 }
-
-bool is_lost_in_rounding(const Shape<float>& shape) {
-  return are_points_that(shape, [](std::span<const Vec3<float>> points) {
-    const Spread spread = spread_of(points);
-    return spread.size > 0 && std::isfinite(spread.size) && is_lost_needle(spread, points);
-  });
-}
-
-bool is_sliver(const Shape<float>& shape) {
-  return are_points_that(shape, [](std::span<const Vec3<float>> points) {
-    return ratio_of_points<float>(points) > most_in_float;
-  });
-}
-
-bool is_flat_but_for_rounding(const Shape<float>& shape) {
-  return are_points_that(shape, [](std::span<const Vec3<float>> points) {
-    const Spread spread = spread_of(points);
-    return spread.lengths[0] <= spread.flat;
-  });
-}
-
-template bool has_extreme_proportions(const Shape<float>&);
-template bool has_extreme_proportions(const Shape<double>&);
 
 }  // namespace minkray

@@ -15,7 +15,7 @@ struct Support {
   Vec3<double> q;  ///< the support point
 };
 
-Support support_in(const RoundFrame& frame, const Shape<double>& shape, const Vec3<double>& m) {
+Support support_in(const RoundFrame& frame, const Shape& shape, const Vec3<double>& m) {
   const Vec3<double> relative = frame.extents / frame.extents.minCoeff();
   const Vec3<double> n = frame.axes * m.cwiseQuotient(relative);
   return {m, frame.to_frame(shape.support(n))};
@@ -38,7 +38,7 @@ Points first_directions(int rank, int n) {
 
 /// The frame of the shape's support points. A thin shape that lies askew shows its true extents
 /// only to directions that are even in its own frame, so the frame is found again in itself.
-RoundFrame frame_of(const Shape<double>& shape, double flatness) {
+RoundFrame frame_of(const Shape& shape, double flatness) {
   constexpr int directions = 200, rounds = 3;
   RoundFrame frame;
   frame.extents = Vec3<double>::Ones();
@@ -126,7 +126,7 @@ std::vector<Vec3<double>> even_directions(int n) {
   return directions;
 }
 
-Sandwich sandwich_of(const Shape<double>& shape, const SandwichOptions& options) {
+Sandwich sandwich_of(const Shape& shape, const SandwichOptions& options) {
   Sandwich sandwich;
   RoundFrame& frame = sandwich.frame;
   frame = frame_of(shape, options.flatness);

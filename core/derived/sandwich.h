@@ -45,7 +45,7 @@ struct Sandwich {
 };
 
 /// Throws std::runtime_error if Qhull fails.
-Sandwich sandwich_of(const Shape<double>& shape, const SandwichOptions& options = {});
+Sandwich sandwich_of(const Shape& shape, const SandwichOptions& options = {});
 
 /// n directions spread evenly over the unit sphere: a Fibonacci spiral.
 std::vector<Vec3<double>> even_directions(int n);

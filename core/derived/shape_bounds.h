@@ -8,7 +8,7 @@
 namespace minkray {
 
 /// The tightest axis-aligned box, exact up to the rounding of the supports.
-template <class T, class S>
+template <class T = double, class S>
 requires SupportMapped<S, T> Bounds<T> bounds_of(const S& shape) {
   Bounds<T> bounds;
   for (int axis = 0; axis < 3; ++axis) {

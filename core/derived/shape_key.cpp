@@ -16,24 +16,24 @@ class KeyWriter {
   void write(const std::array<V, N>& values) {
     for (const V& value : values) write(value);
   }
-  void write(const Nested<double>& nested) { write(*nested); }
-  void write(const ShapeList<double>& shapes) {
+  void write(const Nested& nested) { write(*nested); }
+  void write(const ShapeList& shapes) {
     key.push_back(shapes.size());
-    for (const Nested<double>& shape : shapes) write(*shape);
+    for (const Nested& shape : shapes) write(*shape);
   }
-  void write(const PointCloud<double>& cloud) {
+  void write(const PointCloud& cloud) {
     key.push_back(cloud.points().size());
     for (const Vec3<double>& point : cloud.points()) write(point);
   }
-  void write(const AffineMap<double>& map) {
+  void write(const AffineMap& map) {
     for (int k = 0; k < 9; ++k) write(map.affine().linear.data()[k]);
     write(map.affine().translation);
   }
-  void write(const Shape<double>& shape) {
+  void write(const Shape& shape) {
     key.push_back(shape.kind.index());
     std::visit(
         [&]<class S>(const S& kind) {
-          if constexpr (std::is_same_v<S, Custom<double>>)
+          if constexpr (std::is_same_v<S, Custom>)
             key.push_back(reinterpret_cast<std::uintptr_t>(kind.source.get()));
           else
             for_each_field<S>([&](const auto& field) { write(kind.*(field.member)); });
@@ -46,7 +46,7 @@ class KeyWriter {
 
 }  // namespace
 
-std::vector<std::uint64_t> key_of(const Shape<double>& shape) {
+std::vector<std::uint64_t> key_of(const Shape& shape) {
   KeyWriter writer;
   writer.write(shape);
   return std::move(writer.key);

@@ -11,7 +11,7 @@ namespace minkray {
 
 /// The kinds and the bits of all numbers of a shape, in order: equal keys are equal shapes.
 /// Functions of programs are equal if they are the same object.
-std::vector<std::uint64_t> key_of(const Shape<double>& shape);
+std::vector<std::uint64_t> key_of(const Shape& shape);
 
 /// FNV-1a over the words.
 std::size_t hash_of(const std::vector<std::uint64_t>& key);

@@ -6,9 +6,8 @@
 
 namespace minkray {
 
-template <class T>
-Shape<T> triangle_of(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c) {
-  return Triangle<T>{{a, b, c}};
+inline Shape triangle_of(const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& c) {
+  return Triangle{{a, b, c}};
 }
 
 }  // namespace minkray

@@ -15,56 +15,52 @@ constexpr double most_cells = 6 * 64 * 64;
 
 }  // namespace
 
-template <class T>
-FacetMesh<T>::Facet::Facet(const std::array<Vec3<T>, 3>& counter_clockwise) {
+FacetMesh::Facet::Facet(const std::array<Vec3<double>, 3>& counter_clockwise) {
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t axis = 0; axis < 3; ++axis)
       numbers_[corners + 3 * k + axis] = counter_clockwise[k][static_cast<int>(axis)];
   find_normal();
 }
 
-template <class T>
-void FacetMesh<T>::Facet::find_normal() {
-  const Vec3<T> a = corner(0), b = corner(1), c = corner(2);
-  const Vec3<T> ab = b - a, bc = c - b, ac = c - a;
-  const Vec3<T> normal = unit<T>(ab.squaredNorm() < bc.squaredNorm() ? ab.cross(ac) : ac.cross(bc));
+void FacetMesh::Facet::find_normal() {
+  const Vec3<double> a = corner(0), b = corner(1), c = corner(2);
+  const Vec3<double> ab = b - a, bc = c - b, ac = c - a;
+  const Vec3<double> normal =
+      unit<double>(ab.squaredNorm() < bc.squaredNorm() ? ab.cross(ac) : ac.cross(bc));
   for (std::size_t axis = 0; axis < 3; ++axis)
     numbers_[normals + axis] = normal[static_cast<int>(axis)];
 }
 
-template <class T>
-T FacetMesh<T>::Facet::thickness() const {
-  const Vec3<T> ab = corner(1) - corner(0), ac = corner(2) - corner(0), bc = corner(2) - corner(1);
-  const T longest = std::sqrt(std::max({ab.squaredNorm(), ac.squaredNorm(), bc.squaredNorm()}));
-  return longest > T(0) ? ab.cross(ac).norm() / longest : T(0);
+double FacetMesh::Facet::thickness() const {
+  const Vec3<double> ab = corner(1) - corner(0), ac = corner(2) - corner(0),
+                     bc = corner(2) - corner(1);
+  const double longest =
+      std::sqrt(std::max({ab.squaredNorm(), ac.squaredNorm(), bc.squaredNorm()}));
+  return longest > 0.0 ? ab.cross(ac).norm() / longest : 0.0;
 }
 
-template <class T>
-void FacetMesh<T>::Facet::turn(std::size_t k) {
+void FacetMesh::Facet::turn(std::size_t k) {
   const auto first = numbers_.begin();
   std::rotate(first, first + static_cast<std::ptrdiff_t>(3 * k), first + neighbours);
   std::rotate(first + neighbours, first + static_cast<std::ptrdiff_t>(neighbours + k),
               first + normals);
 }
 
-template <class T>
-FacetMesh<T>::FacetMesh(const ConvexHull& hull, std::span<const Vec3<double>> vertices) {
+FacetMesh::FacetMesh(const ConvexHull& hull, std::span<const Vec3<double>> vertices) {
   std::vector<std::array<std::uint32_t, 3>> corners;
   for (std::size_t f = 0; f < hull.facets.size(); ++f) {
     const std::span<const std::uint32_t> polygon = hull.facets[f];
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
       corners.push_back({polygon[0], polygon[i], polygon[i + 1]});
-      const typename FacetMesh<double>::Facet facet(
-          {vertices[polygon[0]], vertices[polygon[i]], vertices[polygon[i + 1]]});
-      facets_.push_back(facet.template cast<T>());
+      const Facet facet({vertices[polygon[0]], vertices[polygon[i]], vertices[polygon[i + 1]]});
+      facets_.push_back(facet);
     }
   }
   link_neighbours(corners);
   fill_cube_map();
 }
 
-template <class T>
-void FacetMesh<T>::link_neighbours(std::span<const std::array<std::uint32_t, 3>> corners) {
+void FacetMesh::link_neighbours(std::span<const std::array<std::uint32_t, 3>> corners) {
   struct Edge {
     std::uint32_t low, high, facet, side;
     bool operator<(const Edge& o) const { return std::tie(low, high) < std::tie(o.low, o.high); }
@@ -76,20 +72,19 @@ void FacetMesh<T>::link_neighbours(std::span<const std::array<std::uint32_t, 3>>
       const std::uint32_t a = corners[f][k], b = corners[f][(k + 1) % 3];
       edges.push_back({std::min(a, b), std::max(a, b), f, k});
       facets_[f].numbers_[Facet::neighbours + k] =
-          static_cast<T>(f);  // until its neighbour is found
+          static_cast<double>(f);  // until its neighbour is found
     }
   }
   std::sort(edges.begin(), edges.end());
   for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
     const Edge &a = edges[i], &b = edges[i + 1];
     if (a < b) continue;
-    facets_[a.facet].numbers_[Facet::neighbours + a.side] = static_cast<T>(b.facet);
-    facets_[b.facet].numbers_[Facet::neighbours + b.side] = static_cast<T>(a.facet);
+    facets_[a.facet].numbers_[Facet::neighbours + a.side] = static_cast<double>(b.facet);
+    facets_[b.facet].numbers_[Facet::neighbours + b.side] = static_cast<double>(a.facet);
   }
 }
 
-template <class T>
-void FacetMesh<T>::fill_cube_map() {
+void FacetMesh::fill_cube_map() {
   directions_ =
       CubeMap(std::min(cells_per_facet * static_cast<double>(facets_.size()), most_cells));
   constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -112,7 +107,7 @@ void FacetMesh<T>::fill_cube_map() {
     facing_[cell] = facet;
     reached.push_back(cell);
   };
-  const auto climb = [&](std::uint32_t at, const Vec3<T>& direction) {
+  const auto climb = [&](std::uint32_t at, const Vec3<double>& direction) {
     for (bool climbed = true; climbed;) {
       climbed = false;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -123,19 +118,14 @@ void FacetMesh<T>::fill_cube_map() {
     }
     return at;
   };
-  for (std::uint32_t f = 0; f < facets_.size(); ++f)
-    reach(cell_of(facets_[f].normal().template cast<double>()), f);
+  for (std::uint32_t f = 0; f < facets_.size(); ++f) reach(cell_of(facets_[f].normal()), f);
   for (std::size_t i = 0; i < reached.size(); ++i) {  // NOLINT(modernize-loop-convert): it grows
     const CubeMap::Cell square = directions_[reached[i]];
     std::uint32_t& facet = facing_[reached[i]];
-    facet = climb(facet, middle_of(square, 0.5, 0.5).template cast<T>());
+    facet = climb(facet, middle_of(square, 0.5, 0.5));
     for (const auto& [u, v] : {std::pair{-0.5, 0.5}, {1.5, 0.5}, {0.5, -0.5}, {0.5, 1.5}})
       reach(cell_of(middle_of(square, u, v)), facet);
   }
 }
-
-template class FacetMesh<float>;
-template class FacetMesh<double>;
-template class FacetMesh<long double>;  // for oracles
 
 }  // namespace minkray

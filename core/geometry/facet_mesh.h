@@ -18,7 +18,6 @@ namespace minkray {
 
 /// Polygons are split into fans of triangles. The data for one step of a walk form a row of
 /// numbers, which packets of rays read together.
-template <class T>
 class FacetMesh {
  public:
   class Facet {
@@ -29,12 +28,12 @@ class FacetMesh {
     static constexpr std::size_t size = 16;
 
     Facet() = default;
-    explicit Facet(const std::array<Vec3<T>, 3>& counter_clockwise);
+    explicit Facet(const std::array<Vec3<double>, 3>& counter_clockwise);
 
     /// Counter-clockwise from outside.
-    Vec3<T> corner(std::size_t k) const { return vector_at(corners + 3 * k); }
+    Vec3<double> corner(std::size_t k) const { return vector_at(corners + 3 * k); }
     /// Outward normal of unit length; zero for a triangle without area.
-    Vec3<T> normal() const { return vector_at(normals); }
+    Vec3<double> normal() const { return vector_at(normals); }
     /// The facet beyond the edge from corner k to k + 1.
     std::size_t neighbour(std::size_t k) const {
       return static_cast<std::size_t>(numbers_[neighbours + k]);
@@ -42,67 +41,43 @@ class FacetMesh {
     /// True if no vertex of the hull reaches further along the normal than corner 0, and the other
     /// corners reach as far up to rounding. The facet must also be so thick that rounding does not
     /// decide if a line passes through it.
-    bool is_supported() const { return numbers_[supported] != T(0); }
-
-    /// Rounds the facet to U; the result does not count as supported. If U is more precise, the
-    /// normal is computed again, since the stored normal is rounded to T.
-    template <class U>
-    typename FacetMesh<U>::Facet cast() const {
-      typename FacetMesh<U>::Facet converted;
-      std::transform(numbers_.begin(), numbers_.end(), converted.numbers_.begin(),
-                     [](T x) { return static_cast<U>(x); });
-      converted.numbers_[supported] = U(0);
-      if constexpr (std::numeric_limits<U>::digits > std::numeric_limits<T>::digits)
-        converted.find_normal();
-      return converted;
-    }
+    bool is_supported() const { return numbers_[supported] != 0.0; }
 
    private:
-    template <class U>
     friend class FacetMesh;
-    Vec3<T> vector_at(std::size_t i) const {
+    Vec3<double> vector_at(std::size_t i) const {
       return {numbers_[i], numbers_[i + 1], numbers_[i + 2]};
     }
     /// Uses the shorter edges, since these have the least rounding.
     void find_normal();
     /// The least height of the triangle.
-    T thickness() const;
+    double thickness() const;
     /// Rotates the corners so that corner k becomes corner 0.
     void turn(std::size_t k);
 
-    alignas(4 * sizeof(T)) std::array<T, size> numbers_ = {};
+    alignas(4 * sizeof(double)) std::array<double, size> numbers_ = {};
   };
 
   /// The hull has rank 3; `vertices` are its vertices in order.
   FacetMesh(const ConvexHull& hull, std::span<const Vec3<double>> vertices);
 
-  template <class U>
-  FacetMesh<U> cast() const {
-    FacetMesh<U> converted;
-    converted.facets_.reserve(facets_.size());
-    for (const Facet& facet : facets_) converted.facets_.push_back(facet.template cast<U>());
-    converted.directions_ = directions_;
-    converted.facing_ = facing_;
-    return converted;
-  }
-
-  /// Finds the supported facets and their supporting corners. furthest(n) must return the hull's
+  /// Determines which facets are supported, and by which corner; furthest(n) must return the hull's
   /// support point in direction n.
   template <class Furthest>
   void find_supported(Furthest&& furthest) {
-    T largest(0);
+    double largest(0);
     for (const Facet& facet : facets_)
       for (std::size_t k = 0; k < 3; ++k)
         largest = std::max(largest, facet.corner(k).cwiseAbs().maxCoeff());
     for (Facet& facet : facets_) {
-      const Vec3<T> normal = facet.normal();
+      const Vec3<double> normal = facet.normal();
       const auto reach = [&](std::size_t k) { return normal.dot(facet.corner(k)); };
       facet.turn(reach(1) > reach(0) ? (reach(2) > reach(1) ? 2 : 1)
                                      : (reach(2) > reach(0) ? 2 : 0));
       const bool fits = reach(0) - std::min(reach(1), reach(2)) <= uneven * largest;
       const bool supported =
           fits && facet.thickness() > thin * largest && reach(0) >= normal.dot(furthest(normal));
-      facet.numbers_[Facet::supported] = supported ? T(1) : T(0);
+      facet.numbers_[Facet::supported] = supported ? 1.0 : 0.0;
     }
   }
 
@@ -110,7 +85,7 @@ class FacetMesh {
   /// meaningless.
   bool is_supported() const {
     return std::any_of(facets_.begin(), facets_.end(),
-                       [](const Facet& facet) { return facet.numbers_[Facet::supported] > T(0); });
+                       [](const Facet& facet) { return facet.numbers_[Facet::supported] > 0.0; });
   }
 
   const Facet& operator[](std::size_t i) const { return facets_[i]; }
@@ -121,13 +96,13 @@ class FacetMesh {
   template <class W>
   W facing(const Vec3<W>& n) const {
     return lookup<W>(directions_.cell_of(n),
-                     [&](std::size_t cell) { return static_cast<T>(facing_[cell]); });
+                     [&](std::size_t cell) { return static_cast<double>(facing_[cell]); });
   }
 
   /// Returns `count` numbers of each lane's facet, beginning with number `first`.
   template <std::size_t first, std::size_t count, class W>
   std::array<W, count> numbers(const W& facet) const {
-    static_assert(sizeof(Facet) == Facet::size * sizeof(T));
+    static_assert(sizeof(Facet) == Facet::size * sizeof(double));
     return gather_row<count>(facet, facets_.front().numbers_.data() + first, Facet::size);
   }
 
@@ -136,14 +111,10 @@ class FacetMesh {
   }
 
  private:
-  template <class U>
-  friend class FacetMesh;
-  FacetMesh() = default;
-
-  /// In units of the largest coordinate: a few roundings of n.p, and many of a corner's position in
-  /// the ray's frame.
-  static constexpr T uneven = 16 * std::numeric_limits<T>::epsilon();
-  static constexpr T thin = 64 * std::numeric_limits<T>::epsilon();
+  /// In units of the largest coordinate: a few roundings of a reach, and many of a corner's place
+  /// in the ray's frame.
+  static constexpr double uneven = 16 * std::numeric_limits<double>::epsilon();
+  static constexpr double thin = 64 * std::numeric_limits<double>::epsilon();
 
   void link_neighbours(std::span<const std::array<std::uint32_t, 3>> corners);
   void fill_cube_map();
@@ -152,9 +123,5 @@ class FacetMesh {
   CubeMap directions_{1};
   std::vector<std::uint32_t> facing_;  ///< by the direction's cell
 };
-
-extern template class FacetMesh<float>;
-extern template class FacetMesh<double>;
-extern template class FacetMesh<long double>;
 
 }  // namespace minkray

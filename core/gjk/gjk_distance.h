@@ -41,16 +41,16 @@ template <class T, int Dim, class Supports, class G = ProjectionSubalgorithm<T, 
 DistanceResult<T, Dim> gjk_distance(const Supports& supports, const Vec<T, Dim>& x, T radius,
                                     const DistanceOptions<T, Dim>& options = {}, G Y = {},
                                     Observer&& observer = {}) {
-  using Point = Vec<T, Dim>;
+  using Vector = Vec<T, Dim>;
   DistanceResult<T, Dim> result;
   std::array<SupportPair<T, Dim>, G::slots> pairs;
   SubalgorithmAnswer<T, Dim> closest;
   T v_squared = std::numeric_limits<T>::infinity();
   T gap = std::numeric_limits<T>::infinity();
 
-  Point v = options.v0;
+  Vector v = options.v0;
   if (!(v.squaredNorm() > T(0))) v = x;
-  if (!(v.squaredNorm() > T(0))) v = Point::UnitX();
+  if (!(v.squaredNorm() > T(0))) v = Vector::UnitX();
   Y.begin(x);
 
   const auto finish = [&](DistanceStatus status) {
@@ -87,9 +87,9 @@ DistanceResult<T, Dim> gjk_distance(const Supports& supports, const Vec<T, Dim>&
     ++result.iterations;
     ++result.supports;
     const SupportPair<T, Dim> pair = supports(v);
-    const Point p = pair.a - pair.b;
-    const Point w = x - p;
-    const Point v_asked = v;
+    const Vector p = pair.a - pair.b;
+    const Vector w = x - p;
+    const Vector v_asked = v;
     const T v_w = v.dot(w), v_norm = v.norm();
     if (const T bound = v_w / v_norm; bound > result.lower) {
       result.lower = bound;
@@ -128,16 +128,16 @@ DistanceResult<T, Dim> gjk_distance(const Supports& supports, const Vec<T, Dim>&
     }
 
     if constexpr (!std::is_same_v<std::remove_cvref_t<Observer>, NoObserver>) {
-      std::array<Point, G::slots> was, is;
+      std::array<Vector, G::slots> was, is;
       std::size_t n_was = 0, n_is = 0;
       for (int i = 0; i < G::slots; ++i) {
-        const Point y = x - Y.p(i);
+        const Vector y = x - Y.p(i);
         if (before & (1u << i)) was[n_was++] = y;
         if (closest.kept & (1u << i)) is[n_is++] = y;
       }
       observer(DistanceIteration<T, Dim>{v_asked, w, v, result.lower, v.norm(),
-                                         std::span<const Point>(was.data(), n_was),
-                                         std::span<const Point>(is.data(), n_is)});
+                                         std::span<const Vector>(was.data(), n_was),
+                                         std::span<const Vector>(is.data(), n_is)});
     }
 
     if (is_close_enough || slot < 0) return stalled();

@@ -11,31 +11,29 @@
 namespace minkray {
 
 /// The points of the shape are centre + x for all x of `about_centre`.
-template <class T>
 struct CentredShape {
-  Shape<T> about_centre;
-  Vec3<T> centre;
-  T radius;  ///< radius of a ball around the centre that contains the shape
+  Shape about_centre;
+  Vec3<double> centre;
+  double radius;  ///< radius of a ball around the centre that contains the shape
 };
 
 /// `pose` maps the shape's frame to the world; it must be invertible. Affine maps around the shape
 /// are joined, and their translation goes into the centre.
-template <class T>
-CentredShape<T> centred(Shape<T> shape, const Affine<T>& pose = {}) {
-  Affine<T> to_world = pose;
-  while (const auto* transform = std::get_if<Transform<T>>(&shape.kind)) {
+inline CentredShape centred(Shape shape, const Affine<double>& pose = {}) {
+  Affine<double> to_world = pose;
+  while (const auto* transform = std::get_if<Transform>(&shape.kind)) {
     to_world = to_world * transform->map.affine();
-    Shape<T> inner = *transform->shape;
+    Shape inner = *transform->shape;
     shape = std::move(inner);
   }
-  const Vec3<T> middle = bounds_of<T>(shape).centre();
-  const Vec3<T> centre = to_world(middle);
-  const bool in_place = middle == Vec3<T>::Zero();
-  if (!in_place || to_world.linear != Mat3<T>::Identity())
-    shape = Transform<T>{shape, Affine<T>{to_world.linear, -(to_world.linear * middle)}};
-  const T radius = bounds_of<T>(shape).half_extents().stableNorm();
+  const Vec3<double> middle = bounds_of(shape).centre();
+  const Vec3<double> centre = to_world(middle);
+  const bool in_place = middle == Vec3<double>::Zero();
+  if (!in_place || to_world.linear != Mat3<double>::Identity())
+    shape = Transform{shape, Affine<double>{to_world.linear, -(to_world.linear * middle)}};
+  const double radius = bounds_of(shape).half_extents().stableNorm();
   // The box's middle is the centre up to rounding, which the radius allows for.
-  return {std::move(shape), centre, radius * (T(1) + T(16) * std::numeric_limits<T>::epsilon())};
+  return {std::move(shape), centre, radius * (1.0 + 16.0 * std::numeric_limits<double>::epsilon())};
 }
 
 }  // namespace minkray

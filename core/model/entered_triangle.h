@@ -23,7 +23,7 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
                                  const Vec3<W>& from, const RayFrame<W>& frame) {
     using std::max;
     using std::min;
-    const FacetMesh<T>& mesh = *hull.points.facets();
+    const FacetMesh& mesh = *hull.points.facets();
     const Vec3<W> guess = normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z));
     // Corners are rounded relative to the ray; hulls may be far from the origin of their frame.
     const T R = half_extents.norm();
@@ -94,7 +94,7 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
   /// other, the edge between them is the result.
   static EnteredFacet<W> around(const Core& hull, T radius, const Vec3<T>& half_extents,
                                 const Vec3<W>& s, const Vec3<W>& from, const RayFrame<W>& frame) {
-    const FacetMesh<T>& mesh = *hull.points.facets();
+    const FacetMesh& mesh = *hull.points.facets();
     const Vec3<W> guess = normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z));
     // Facets are stored as supported if they are thick relative to the hull; they must also be
     // thick relative to the radius; otherwise rounding decides which of them contains the foot.
@@ -180,12 +180,12 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
   }
 
  private:
-  using Row = typename FacetMesh<T>::Facet;
+  using Row = typename FacetMesh::Facet;
 
   /// If the line passes an edge within rounding, it also enters the facet beyond, whose distance is
   /// rounded less if it faces the ray more: due to rounding, the line may cross the plane of a
   /// facet seen nearly edge-on long before the edge.
-  static void settle(const FacetMesh<T>& mesh, const Vec3<W>& from, const RayFrame<W>& frame,
+  static void settle(const FacetMesh& mesh, const Vec3<W>& from, const RayFrame<W>& frame,
                      const Mask<W>& at_edge, const W& rounding, W& at,
                      std::array<Vec3<W>, 3>& corners) {
     using std::abs;
@@ -244,7 +244,7 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
   /// their facets are less near, but face the ray more surely.
   static constexpr std::array<T, 3> tilts = {T(1) / T(32), T(1) / T(2), T(4)};
   static constexpr int restarts = static_cast<int>(tilts.size()) - 1;
-  static W start(const FacetMesh<T>& mesh, const Vec3<W>& guess, const RayFrame<W>& frame,
+  static W start(const FacetMesh& mesh, const Vec3<W>& guess, const RayFrame<W>& frame,
                  int attempt) {
     return mesh.facing(Vec3<W>(guess + frame.z * W(tilts[static_cast<std::size_t>(attempt)])));
   }

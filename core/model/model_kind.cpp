@@ -8,9 +8,8 @@
 namespace minkray {
 namespace {
 
-template <class T>
-ModelKind kind_of_surface(const Shape<T>& shape) {
-  switch (surface_of<T>(shape)) {
+ModelKind kind_of_surface(const Shape& shape) {
+  switch (surface_of<double>(shape)) {
     case SurfaceKind::flat:
       return ModelKind::points;
     case SurfaceKind::translates:
@@ -27,22 +26,18 @@ ModelKind kind_of_surface(const Shape<T>& shape) {
 
 }  // namespace
 
-template <class T>
-ModelKind model_kind_of(const Shape<T>& shape) {
+ModelKind model_kind_of(const Shape& shape) {
   return std::visit(
       [&]<class S>(const S& kind) {
         const ModelKind model = kind_of_surface(shape);
         if constexpr (declared_by<S>.gauge)
           if (model == ModelKind::smooth) return ModelKind::gauge;
-        if constexpr (std::is_same_v<S, Rounded<T>>)
-          if (model != ModelKind::points && surface_of<T>(*kind.shape) == SurfaceKind::flat)
+        if constexpr (std::is_same_v<S, Rounded>)
+          if (model != ModelKind::points && surface_of<double>(*kind.shape) == SurfaceKind::flat)
             return ModelKind::rounded_points;
         return model;
       },
       shape.kind);
 }
-
-template ModelKind model_kind_of(const Shape<float>&);
-template ModelKind model_kind_of(const Shape<double>&);
 
 }  // namespace minkray

@@ -20,10 +20,6 @@ enum class ModelKind : unsigned char {
 
 /// Returns the model that suits a shape. Correctness does not depend on this choice: supporting
 /// planes bound any shape, and support points lie in it.
-template <class T>
-ModelKind model_kind_of(const Shape<T>& shape);
-
-extern template ModelKind model_kind_of(const Shape<float>&);
-extern template ModelKind model_kind_of(const Shape<double>&);
+ModelKind model_kind_of(const Shape& shape);
 
 }  // namespace minkray

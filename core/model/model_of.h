@@ -17,9 +17,9 @@ namespace minkray {
 
 /// Calls use(make_model), where make_model(s, r) makes the shape's model as seen from s along r.
 template <class W, class Use>
-auto with_model(const ShapeDefinition<Lane<W>>& definition, Use&& use) {
+auto with_model(const ShapeDefinition& definition, Use&& use) {
   using T = Lane<W>;
-  const Shape<T>& shape = definition.inner_shape();
+  const Shape& shape = definition.inner_shape();
   const Vec3<T>& centre = definition.inner_ball().centre;
   const T R = definition.inner_ball().radius;
   const auto made_of = [&]<class Model>(std::type_identity<Model>, const auto&... what) {
@@ -36,7 +36,7 @@ auto with_model(const ShapeDefinition<Lane<W>>& definition, Use&& use) {
   };
   const auto smooth = [&] {
     return use([&](const Vec3<W>& s, const Vec3<W>& r) {
-      return SmoothModel<W, Shape<T>>(shape, centre, s, r, R);
+      return SmoothModel<W, Shape>(shape, centre, s, r, R);
     });
   };
   switch (definition.model()) {
@@ -50,7 +50,7 @@ auto with_model(const ShapeDefinition<Lane<W>>& definition, Use&& use) {
           },
           shape.kind);
     case ModelKind::rounded_points: {
-      const auto& [radius, core] = std::get<Rounded<T>>(shape.kind);
+      const auto& [radius, core] = std::get<Rounded>(shape.kind);
       return std::visit(
           [&, r = radius, &any = *core]<class S>(const S& points) {
             if constexpr (declared_by<S>.facets)
@@ -61,7 +61,7 @@ auto with_model(const ShapeDefinition<Lane<W>>& definition, Use&& use) {
           core->kind);
     }
     case ModelKind::translates:
-      return made_of(std::type_identity<TranslatesModel<W, JetTranslates<W, Shape<T>>>>(), shape);
+      return made_of(std::type_identity<TranslatesModel<W, JetTranslates<W, Shape>>>(), shape);
     case ModelKind::gauge:
       return std::visit(
           [&]<class S>(const S& kind) {
@@ -77,7 +77,7 @@ auto with_model(const ShapeDefinition<Lane<W>>& definition, Use&& use) {
       return smooth();
     case ModelKind::ellipsoid_sum:
       return use([&](const Vec3<W>& s, const Vec3<W>& r) {
-        return EllipsoidSumModel<W, Shape<T>>(shape, definition.ellipsoid_sum(), centre, s, r, R);
+        return EllipsoidSumModel<W, Shape>(shape, definition.ellipsoid_sum(), centre, s, r, R);
       });
     default:
       return use(

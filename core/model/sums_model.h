@@ -16,7 +16,7 @@ class SumsModel {
 
   using Feature = SumFeature<W>;
 
-  SumsModel(const Shape<T>& shape, const Vec3<T>& centre, const Vec3<W>& s, const Vec3<W>& r, T R)
+  SumsModel(const Shape& shape, const Vec3<T>& centre, const Vec3<W>& s, const Vec3<W>& r, T R)
       : shape_(shape), s_(s), from_(widen<W>(centre) + s), frame_(r), R_(R) {}
 
   Vec3<W> to_frame(const Vec3<W>& n) const { return frame_.into(n); }
@@ -71,7 +71,7 @@ class SumsModel {
     return into;
   }
 
-  const Shape<T>& shape_;
+  const Shape& shape_;
   Vec3<W> s_, from_;
   RayFrame<W> frame_;
   T R_;

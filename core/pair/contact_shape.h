@@ -3,7 +3,6 @@
 // relative poses, solvers only handle numbers as large as the bodies' sizes and their distance.
 #pragma once
 
-#include "core/derived/convert.h"
 #include "core/derived/core_and_radius.h"
 #include "core/math/affine.h"
 #include "core/pair/core_pair.h"
@@ -11,18 +10,17 @@
 
 namespace minkray {
 
-/// Immutable and cheap to copy. All numbers are doubles, even for shapes in float.
+/// Immutable and cheap to copy.
 class ContactShape {
  public:
   /// `map` maps the shape's frame to the body's; it may be any invertible map.
-  explicit ContactShape(const Shape<double>& shape, const Affine<double>& map = {})
+  explicit ContactShape(const Shape& shape, const Affine<double>& map = {})
       : ContactShape(core_and_radius(shape, map)) {}
   explicit ContactShape(CoreAndRadius core_and_radius)
       : core_and_radius_(std::move(core_and_radius)),
         is_turned_(core_and_radius_.turn != Mat3<double>::Identity()),
         is_moved_(core_and_radius_.middle != Vec3<double>::Zero()),
         offset_(length_of(core_and_radius_.middle)) {}
-  explicit ContactShape(const Shape<float>& shape) : ContactShape(convert<double>(shape)) {}
 
   const ShapeCore& core() const { return core_and_radius_.core; }
   /// Rotation from the core's frame to the body's; keeps lengths.

@@ -5,19 +5,17 @@
 
 namespace minkray {
 
-Shape<double> swept(const Shape<double>& shape, const Affine<double>& from,
-                    const Affine<double>& to, double acceleration) {
+Shape swept(const Shape& shape, const Affine<double>& from, const Affine<double>& to,
+            double acceleration) {
   // Allows for the rounding of the poses' numbers.
   constexpr double padding = 1 + 16 * std::numeric_limits<double>::epsilon();
-  const HullOf<double> ends{{Nested<double>(Shape<double>(Transform<double>{shape, from})),
-                             Nested<double>(Shape<double>(Transform<double>{shape, to}))}};
+  const HullOf ends{{Nested(Shape(Transform{shape, from})), Nested(Shape(Transform{shape, to}))}};
   const double bulge = padding * acceleration / 8;
   if (!(bulge > 0)) return ends;
-  return Rounded<double>{bulge, Nested<double>(Shape<double>(ends))};
+  return Rounded{bulge, Nested(Shape(ends))};
 }
 
-Shape<double> swept(const Shape<double>& shape, const Affine<double>& from,
-                    const Affine<double>& to) {
+Shape swept(const Shape& shape, const Affine<double>& from, const Affine<double>& to) {
   const Mat3<double> turn = to.linear * from.linear.transpose();
   const Eigen::AngleAxis<double> by(turn);
   const double angle = by.angle();
@@ -26,7 +24,7 @@ Shape<double> swept(const Shape<double>& shape, const Affine<double>& from,
   return swept(shape, from, to, distance_from_axis(shape, axis) * angle * angle);
 }
 
-double distance_from_axis(const Shape<double>& shape, const Vec3<double>& axis) {
+double distance_from_axis(const Shape& shape, const Vec3<double>& axis) {
   const Vec3<double> u = axis.unitOrthogonal(), v = axis.cross(u);
   constexpr int directions = 24;
   double most = 0;

@@ -20,7 +20,7 @@ bool is_near(const BvhNode& node, int child, const Vec3<double>& point, double n
 
 bool bends_at(const TriangleMesh& mesh, const Vec3<double>& point, double near) {
   constexpr double same_direction = 1e-9;
-  const ContactShape at{Shape<double>(Point<double>{point})};
+  const ContactShape at{Shape(Point{point})};
   SignedDistanceOptions how;
   how.at_most = near;
   std::optional<Vec3<double>> normal;

@@ -62,7 +62,7 @@ PairDerivative derivative_at_half_space(const Vec3<double>& origin, const PartsB
                                         PairDerivativeError* error, const Drift& drift) {
   if (b.shape()) return derivative_at_half_space(origin, *b.shape(), pose_b, found, error, drift);
   // A half-space sees the lowest vertex only.
-  static const ContactShape point{Shape<double>(Point<double>())};
+  static const ContactShape point{Shape(Point())};
   PairDerivative derivative = derivative_at_half_space(origin, point, pose_b, found, error, drift);
   if (derivative.is_ridge) return derivative;
   derivative.is_ridge = has_other_lowest(*b.mesh(), pose_b, found, drift);

@@ -27,15 +27,12 @@ Polytope::Polytope(const std::vector<Vec3<double>>& vertices, double rounded_by)
 #endif
 }
 
-template <class T>
-std::shared_ptr<const Polytope> Polytope::of(const PointCloud<T>& points,
-                                             const Vec3<double>& middle, double down,
-                                             double rounded_by) {
-  const FacetMesh<T>* mesh = points.facets();
+std::shared_ptr<const Polytope> Polytope::of(const PointCloud& points, const Vec3<double>& middle,
+                                             double down, double rounded_by) {
+  const FacetMesh* mesh = points.facets();
   if (!mesh || points.points().size() > most_points) return nullptr;
   std::vector<Vec3<double>> vertices;
-  for (const Vec3<T>& point : points.points())
-    vertices.push_back(point.template cast<double>() * down - middle);
+  for (const Vec3<double>& point : points.points()) vertices.push_back(point * down - middle);
   const std::shared_ptr<Polytope> made(new Polytope(vertices, rounded_by));
   if (!std::isfinite(made->radius_ + rounded_by)) return nullptr;
   Maker maker(*made, std::move(vertices));
@@ -44,9 +41,7 @@ std::shared_ptr<const Polytope> Polytope::of(const PointCloud<T>& points,
   if (!maker.find_inside()) return nullptr;
   if (rounded_by > 0 && !maker.make_room_for_rounding()) return nullptr;
   maker.fill_tables();
-  maker.fill_map([&](const Vec3<double>& direction) {
-    return mesh->template facing<T>(direction.template cast<T>());
-  });
+  maker.fill_map([&](const Vec3<double>& direction) { return mesh->facing<double>(direction); });
   return made;
 }
 
@@ -64,10 +59,5 @@ std::shared_ptr<const Polytope> Polytope::of(const std::array<Vec3<double>, 3>& 
       [&](const Vec3<double>& direction) { return direction.dot(normal) > 0 ? 0u : 1u; });
   return made;
 }
-
-template std::shared_ptr<const Polytope> Polytope::of(const PointCloud<float>&, const Vec3<double>&,
-                                                      double, double);
-template std::shared_ptr<const Polytope> Polytope::of(const PointCloud<double>&,
-                                                      const Vec3<double>&, double, double);
 
 }  // namespace minkray::exact

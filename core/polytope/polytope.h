@@ -20,8 +20,7 @@ class Polytope {
   /// depths of its planes. For rounded_by > 0, also null if the hull is not convex, or if its
   /// triangles are so low that rounding confuses their features. Points are multiplied by `down`
   /// first.
-  template <class T>
-  static std::shared_ptr<const Polytope> of(const PointCloud<T>& points, const Vec3<double>& middle,
+  static std::shared_ptr<const Polytope> of(const PointCloud& points, const Vec3<double>& middle,
                                             double down, double rounded_by = 0);
 
   /// A triangle with two sides, grown by a radius; corners are relative to the middle. Null if the
@@ -47,11 +46,6 @@ class Polytope {
   double radius_ = 0;
   double rounding_ = 0;
 };
-
-extern template std::shared_ptr<const Polytope> Polytope::of(const PointCloud<float>&,
-                                                             const Vec3<double>&, double, double);
-extern template std::shared_ptr<const Polytope> Polytope::of(const PointCloud<double>&,
-                                                             const Vec3<double>&, double, double);
 
 /// The lines must meet the ball, and their E must include the rounding.
 template <class W>

@@ -19,7 +19,7 @@ class Polytope::Maker {
 
   /// Stores the mesh's triangles. False if the links between neighbours are not mutual.
   template <class T>
-  bool take_triangles(const FacetMesh<T>& mesh, const std::vector<Vec3<T>>& points) {
+  bool take_triangles(const FacetMesh& mesh, const std::vector<Vec3<T>>& points) {
     std::vector<std::uint32_t> order(points.size());
     std::iota(order.begin(), order.end(), 0u);
     const auto at = [&](std::uint32_t i) {

@@ -20,7 +20,7 @@ namespace minkray {
 using SupportFunction = std::function<Vec3<double>(const Vec3<double>&)>;
 
 /// The shape must outlive the function.
-inline SupportFunction supports_of(const Shape<double>& shape) {
+inline SupportFunction supports_of(const Shape& shape) {
   return [&shape](const Vec3<double>& n) { return shape.support(n); };
 }
 

@@ -10,8 +10,8 @@
 
 namespace minkray {
 
-ProvenCast proven(const Shape<double>& shape, const Ball<double>& ball,
-                  const RayNearBall<double>& near, const CastResult<double>& answer, bool before) {
+ProvenCast proven(const Shape& shape, const Ball<double>& ball, const RayNearBall<double>& near,
+                  const CastResult<double>& answer, bool before) {
   ProvenCast proof{answer};
   if (answer.status == Status::exhausted) return proof;
   const double reach = tolerance::proof_reach * ball.radius;

@@ -23,8 +23,7 @@ struct ProvenCast {
 /// shape, and the normal is in the shape's frame. The search for the spanned point goes from the
 /// claimed point to the rounding along the ray beyond it; if `before`, also as far before the
 /// claimed point.
-ProvenCast proven(const Shape<double>& shape, const Ball<double>& ball,
-                  const RayNearBall<double>& near, const CastResult<double>& answer,
-                  bool before = false);
+ProvenCast proven(const Shape& shape, const Ball<double>& ball, const RayNearBall<double>& near,
+                  const CastResult<double>& answer, bool before = false);
 
 }  // namespace minkray

@@ -37,7 +37,7 @@ NearSegment near_segment(const Support& support, const Ray<double>& ray) {
     // Name that SupportMapped requires.
     Vec3<double> support(const Vec3<double>& n) const { return function(n); }
   };
-  const Bounds<double> bounds = bounds_of<double>(Named{support});
+  const Bounds<double> bounds = bounds_of(Named{support});
   NearSegment near;
   near.centre = bounds.centre();
   near.size = near.centre.norm() + bounds.half_extents().norm();

@@ -5,19 +5,9 @@
 
 namespace minkray::detail {
 
-[[gnu::target("fma")]] RayNearBall<float> ray_near_with_fma(const Vec3<float>& centre,
-                                                            const Ray<float>& ray) {
-  return ray_near_here<float>(centre, ray);
-}
-
 [[gnu::target("fma")]] RayNearBall<double> ray_near_with_fma(const Vec3<double>& centre,
                                                              const Ray<double>& ray) {
   return ray_near_here<double>(centre, ray);
-}
-
-[[gnu::target("fma")]] RayNearBall<float> ray_near_with_fma(const TwoFoldVec3<float>& centre,
-                                                            const Ray<float>& ray) {
-  return ray_near_here<float>(centre, ray);
 }
 
 [[gnu::target("fma")]] RayNearBall<double> ray_near_with_fma(const TwoFoldVec3<double>& centre,

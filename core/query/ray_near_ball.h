@@ -171,9 +171,7 @@ template <class W, class Centre>
 #if defined(__x86_64__)
 /// Uses the fma instruction if the machine has one; otherwise calls a function for each of six fma.
 /// Compiled in one file only, so that other flags do not change bits.
-RayNearBall<float> ray_near_with_fma(const Vec3<float>& centre, const Ray<float>& ray);
 RayNearBall<double> ray_near_with_fma(const Vec3<double>& centre, const Ray<double>& ray);
-RayNearBall<float> ray_near_with_fma(const TwoFoldVec3<float>& centre, const Ray<float>& ray);
 RayNearBall<double> ray_near_with_fma(const TwoFoldVec3<double>& centre, const Ray<double>& ray);
 #endif
 
@@ -188,7 +186,7 @@ requires(std::is_same_v<Centre, Vec3<Lane<W>>> ||
          std::is_same_v<Centre, TwoFoldVec3<Lane<W>>>) RayNearBall<W> ray_near(const Centre& centre,
                                                                                const Ray<W>& ray) {
 #if defined(__x86_64__)
-  if constexpr (std::is_same_v<W, float> || std::is_same_v<W, double>)
+  if constexpr (std::is_same_v<W, double>)
     if (__builtin_cpu_supports("fma")) return detail::ray_near_with_fma(centre, ray);
 #endif
   return detail::ray_near_here<W>(centre, ray);
@@ -202,23 +200,20 @@ requires(LaneOf<W>::count > 1) RayNearBall<W> ray_near(const Vec3<W>& centre, co
 
 /// Moves one ray whose origin is further away than far_origin, with more digits. Beyond
 /// farthest_origin, even these digits do not suffice.
-template <class T>
-RayNearBall<T> ray_near_from_afar(const std::type_identity_t<TwoFoldVec3<T>>& centre,
-                                  const Ray<T>& ray) {
-  using Finer = std::conditional_t<std::is_same_v<T, float>, double, long double>;
-  const Ray<Finer> same{ray.origin.template cast<Finer>(), ray.direction.template cast<Finer>(),
-                        Finer(ray.t_max)};
-  const TwoFoldVec3<Finer> same_centre(centre.high.template cast<Finer>(),
-                                       centre.low.template cast<Finer>());
+inline RayNearBall<double> ray_near_from_afar(const TwoFoldVec3<double>& centre,
+                                              const Ray<double>& ray) {
+  using Finer = long double;
+  const Ray<Finer> same{ray.origin.cast<Finer>(), ray.direction.cast<Finer>(), Finer(ray.t_max)};
+  const TwoFoldVec3<Finer> same_centre(centre.high.cast<Finer>(), centre.low.cast<Finer>());
   const RayNearBall<Finer> fine = detail::ray_near_here<Finer>(same_centre, same);
-  RayNearBall<T> near;
-  near.s = fine.s.template cast<T>();
-  near.r = fine.r.template cast<T>();
-  near.lambda_min = T(fine.lambda_min);
-  near.lambda_max = T(fine.lambda_max);
-  near.t_base = T(fine.t_base);
-  near.t_shift = T((fine.t_base - Finer(near.t_base)) + fine.t_shift);
-  near.t_per_length = T(fine.t_per_length);
+  RayNearBall<double> near;
+  near.s = fine.s.cast<double>();
+  near.r = fine.r.cast<double>();
+  near.lambda_min = double(fine.lambda_min);
+  near.lambda_max = double(fine.lambda_max);
+  near.t_base = double(fine.t_base);
+  near.t_shift = double((fine.t_base - Finer(near.t_base)) + fine.t_shift);
+  near.t_per_length = double(fine.t_per_length);
   return near;
 }
 

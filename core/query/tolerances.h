@@ -57,12 +57,11 @@ inline constexpr T jet_gap = T(4) * epsilon<T>;
 template <class T>
 inline constexpr T plane_rounding = T(8) * epsilon<T>;
 
-/// The slope of a supporting plane is its normal's component against the ray. A plane with a
-/// smaller slope than this does not determine where along the ray the shape begins, except clearly
-/// beyond rounding. Rays at plates of 1:1000 needed 1e-4 in float; for rays in the plane of a face,
-/// the slope is a few epsilon.
+/// Slope of a supporting plane (its normal's component against the ray) up to which the plane does
+/// not determine where along the ray the shape begins, except clearly beyond rounding. For
+/// rays in the plane of a face, the slope is a few epsilon.
 template <class T>
-inline constexpr T least_slope = std::is_same_v<T, float> ? T(0x1p-16) : T(0x1p-36);
+inline constexpr T least_slope = T(0x1p-36);
 
 /// Hits with a smaller slope than this are checked again if the shape may have corners. Rounding
 /// across the plane, divided by the slope, is the uncertainty along the ray, and past a corner the
@@ -72,9 +71,9 @@ template <class T>
 inline constexpr T uncertain_slope = T(0x1p-7);
 
 /// Same for shapes without flat faces, whose surface turns away from the ray as their planes become
-/// steep. Also for the planes that prove an origin to be inside. Float needs no such check.
+/// steep, and for the planes between which an origin is inside.
 template <class T>
-inline constexpr T uncertain_smooth_slope = std::is_same_v<T, float> ? T(0) : T(0x1p-12);
+inline constexpr T uncertain_smooth_slope = T(0x1p-12);
 
 /// Rounding of images under maps, in units of the summands' magnitude. Half an epsilon each for
 /// three products, their sums and the inverse map's numbers; the same again for the entries of a
@@ -106,11 +105,10 @@ inline constexpr T offset_rounding = T(4) * epsilon<T>;
 template <class T>
 inline constexpr T small_loss = T(1024) * epsilon<T>;
 
-/// Largest distance along the ray between the model and the best plane for a hit, for planes of any
-/// slope, in units of the bounding radius. Equals a gap of jet_gap at a slope of 1e-3 in float and
-/// 1e-6 in double.
+/// Largest distance along the ray between model and best plane for a hit, whatever the planes'
+/// slopes, in units of the bounding radius. Equals a gap of jet_gap at a slope of 1e-6.
 template <class T>
-inline constexpr T jet_gap_along = std::is_same_v<T, float> ? T(0x1p-11) : T(0x1p-30);
+inline constexpr T jet_gap_along = T(0x1p-30);
 
 /// A line that is tangent within rounding is moved this deep into the shape to find where it
 /// enters. In units of the bounding radius; more than jet_gap.
@@ -138,7 +136,7 @@ inline constexpr T on_the_ray_squared = T(0.36) * epsilon<T>;
 /// Shapes whose size is between the inverse of this and this are cast at without scaling: fourth
 /// powers of sizes, times the square of epsilon, are then in the range of T.
 template <class T>
-inline constexpr T ordinary_size = std::is_same_v<T, float> ? T(0x1p16) : T(0x1p128);
+inline constexpr T ordinary_size = T(0x1p128);
 
 /// A direction counts as the axis of a disk if the disk's reach along it is at most this, relative
 /// to the disk's size: a few roundings of either.
@@ -168,15 +166,9 @@ inline constexpr T end_slack = T(8) * epsilon<T>;
 template <class T>
 inline constexpr T far_origin = std::is_same_v<T, float> ? T(0x1p24) : T(0x1p53);
 
-/// Casts from origins beyond this distance are exhausted. The pair t_base and t_offset would no
-/// longer determine the hit point on the shape (float), or the ray moved in long double would have
-/// lost its digits (double).
-template <class T>
-inline constexpr T farthest_origin = std::is_same_v<T, float> ? T(0x1p46) : T(0x1p62);
-
-/// Beyond this distance of a shape from the frame's origin, in radii of the shape, float is too
-/// coarse near the shape: steps of float are 2^-24 of the distance, or 3e-5 of the radius.
-inline constexpr double far_out = 0x1p9;
+/// Distance of an origin beyond which casts are exhausted: the ray moved in long double has lost
+/// its digits.
+inline constexpr double farthest_origin = 0x1p62;
 
 /// A line counts as meeting a bounding box up to this distance, relative to the sizes of the
 /// summands. The mapped origin and direction are sums of up to four rounded numbers; their cross
@@ -184,33 +176,26 @@ inline constexpr double far_out = 0x1p9;
 template <class T>
 inline constexpr T box_padding = T(8) * epsilon<T>;
 
-/// Uncertainty of a position near the shape that closed forms assume, in units of the form's
-/// radius: E / R of docs/forms.md ("Casts with an error bound"). Float rays are computed in double:
-/// moving an origin up to form_far away has an error of 2^-33 R, and up to 5 times that along the
-/// ray. Double rays: the two steps and some twenty operations after them are each rounded by 2^-53.
-template <class T>
-inline constexpr double form_rounding = std::is_same_v<T, float> ? 0x1p-30 : 0x1p-49;
+/// Uncertainty that closed forms assume of a position near the shape, in units of the form's
+/// radius: E / R of docs/forms.md ("Casts with an error bound"). Rounding of the two steps that
+/// move the ray and of some twenty operations after them, 2^-53 each.
+inline constexpr double form_rounding = 0x1p-49;
 
-/// A component of the direction across an axis counts as zero if its square is less than this times
-/// the squared direction. The component then moves the ray by less than E / 4 while the ray passes
-/// the shape: (E / R)^2 / 16.
-template <class T>
-inline constexpr double form_parallel = form_rounding<T>* form_rounding<T> / 16;
+/// Share of the squared direction. A component across an axis whose square is a smaller share moves
+/// the ray by less than E / 4 while it passes the shape: (E / R)^2 / 16.
+inline constexpr double form_parallel = form_rounding * form_rounding / 16;
 
-/// Closed forms are used for origins up to this distance, in units of the form's radius: 2^-53 of
-/// the distance is the error of 2^-33 in form_rounding for float rays.
+/// Distance of an origin, in units of the form's radius, up to which closed forms are used.
 inline constexpr double form_far = 0x1p20;
 
 /// Forms are used up to this ratio of a map's rounding to the rounding of the form's own points.
 /// The error is then at most 2^-30 of the radius; the forms' bounds neglect squares of errors.
 inline constexpr double form_worst_map = 0x1p19;
 
-/// Increases of the error bound of t, due to the rounding of the bound (form_margin, relative to
-/// the bound) and of t (form_digits, relative to the offset; for double rays, with the rounding of
-/// the ray's length and its inverse).
+/// Increases of the bound of t due to the rounding of the bound (a share of it) and of t (epsilons
+/// of the offset, of the ray's length and of its inverse).
 inline constexpr double form_margin = 0x1p-20;
-template <class T>
-inline constexpr double form_digits = (std::is_same_v<T, float> ? 1 : 8) * double(epsilon<T>);
+inline constexpr double form_digits = 8 * epsilon<double>;
 
 /// Limit of lengths of directions, and of their inverses, for rays in double.
 inline constexpr double form_longest_step = 1e250;

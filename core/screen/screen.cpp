@@ -48,7 +48,7 @@ double least_round(const exact::Form& form) {
 }
 
 /// A box around the shape, as a form.
-exact::Form box_around(const ShapeDefinition<double>& definition) {
+exact::Form box_around(const ShapeDefinition& definition) {
   exact::Form form;
   form.kind = FormKind::box;
   const double R = definition.inner_ball().radius;
@@ -94,9 +94,9 @@ std::shared_ptr<const std::vector<float>> planes_of(const exact::Polytope& polyt
 
 }  // namespace
 
-Screen screen_of(const ShapeDefinition<double>& definition, const Vec3<double>& centre) {
+Screen screen_of(const ShapeDefinition& definition, const Vec3<double>& centre) {
   Screen screen;
-  if (definition.is_extreme() || definition.is_lost_in_rounding()) return screen;
+  if (definition.is_extreme()) return screen;
   const exact::Form& own = definition.form();
   const bool is_in_reach = is_in_range(own.R) && is_in_range(own.inner_R);
   if (own.kind == FormKind::polytope && own.polytope && is_in_reach)

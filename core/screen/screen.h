@@ -47,7 +47,7 @@ inline constexpr std::size_t form_kinds = static_cast<std::size_t>(FormKind::pol
 
 /// Makes the screen of a definition. `centre` is that of the inner ball, in the frame to which
 /// InstancePlace maps.
-Screen screen_of(const ShapeDefinition<double>& definition, const Vec3<double>& centre);
+Screen screen_of(const ShapeDefinition& definition, const Vec3<double>& centre);
 
 /// Bounds of the hit's parameter in each lane. `first` is infinite if the ray certainly misses, for
 /// any t_max; `last` is infinite unless the ray certainly hits from outside.

@@ -10,9 +10,8 @@
 
 namespace minkray {
 
-template <class T>
 struct Box {
-  Vec3<T> half_extents = Vec3<T>::Ones();
+  Vec3<double> half_extents = Vec3<double>::Ones();
 
   static constexpr std::string_view name = "box";
   static constexpr std::string_view doc = "A box around the origin.";
@@ -23,7 +22,7 @@ struct Box {
   }
 
   ExactForm exact_form() const {
-    const Vec3<T>& h = half_extents;
+    const Vec3<double>& h = half_extents;
     return {FormKind::box, {double(h[0]), double(h[1]), double(h[2])}};
   }
 

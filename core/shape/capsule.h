@@ -9,10 +9,9 @@
 
 namespace minkray {
 
-template <class T>
 struct Capsule {
-  T radius = T(1);
-  T half_height = T(1);
+  double radius = 1.0;
+  double half_height = 1.0;
 
   static constexpr std::string_view name = "capsule";
   static constexpr std::string_view doc =

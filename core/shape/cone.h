@@ -8,10 +8,9 @@
 
 namespace minkray {
 
-template <class T>
 struct Cone {
-  T radius = T(1);
-  T half_height = T(1);
+  double radius = 1.0;
+  double half_height = 1.0;
 
   static constexpr std::string_view name = "cone";
   static constexpr std::string_view doc = "A cone around the z axis, its apex at +z.";

@@ -64,7 +64,6 @@ class SupportSource {
   Coordinates middle_ = {0, 0, 0};
 };
 
-template <class T>
 struct Custom {
   std::shared_ptr<const SupportSource> source;
 
@@ -72,11 +71,6 @@ struct Custom {
   static constexpr std::string_view doc = "A shape that a program gives by its support mapping.";
   static constexpr Declared declared = {.support_where = true, .by_program = true};
   static constexpr auto fields() { return std::tuple<>{}; }
-
-  template <class U>
-  Custom<U> cast() const {
-    return {source};
-  }
 
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {

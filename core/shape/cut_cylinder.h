@@ -14,12 +14,11 @@ namespace minkray {
 
 /// The points with x^2 + y^2 <= radius^2 between the planes z = heights[k] + slope_k . (x, y), k =
 /// 0 below and 1 above.
-template <class T>
 struct CutCylinder {
-  T radius = T(1);
-  std::array<T, 2> heights = {T(-1), T(1)};
-  std::array<T, 2> lower_slope = {T(0), T(0)};
-  std::array<T, 2> upper_slope = {T(0), T(0)};
+  double radius = 1.0;
+  std::array<double, 2> heights = {-1.0, 1.0};
+  std::array<double, 2> lower_slope = {0.0, 0.0};
+  std::array<double, 2> upper_slope = {0.0, 0.0};
 
   static constexpr std::string_view name = "cut_cylinder";
   static constexpr std::string_view doc =
@@ -38,10 +37,10 @@ struct CutCylinder {
   /// The planes may touch at the cylinder's surface, but must not cross inside it.
   std::optional<Misfit> misfit() const {
     using std::hypot;
-    constexpr T rounding = T(8) * std::numeric_limits<T>::epsilon();
-    const T needed =
+    constexpr double rounding = 8.0 * std::numeric_limits<double>::epsilon();
+    const double needed =
         radius * hypot(upper_slope[0] - lower_slope[0], upper_slope[1] - lower_slope[1]);
-    if (heights[1] - heights[0] >= needed * (T(1) - rounding)) return {};
+    if (heights[1] - heights[0] >= needed * (1.0 - rounding)) return {};
     return Misfit{"heights",
                   "must be rising, and so far apart that the planes do not cross within the "
                   "cylinder: by at least",
@@ -61,7 +60,7 @@ struct CutCylinder {
   Vec3<W> support(const Vec3<W>& n) const {
     const Rims<W> rims(*this, n);
     const Vec3<W> p = select<W>(rims.is_upper, rims.upper, rims.lower) * W(radius);
-    const auto height = [&](std::size_t k, const std::array<T, 2>& slope) -> W {
+    const auto height = [&](std::size_t k, const std::array<double, 2>& slope) -> W {
       return W(heights[k]) + W(slope[0]) * p.x() + W(slope[1]) * p.y();
     };
     return {p.x(), p.y(), select(rims.is_upper, height(1, upper_slope), height(0, lower_slope))};
@@ -71,12 +70,14 @@ struct CutCylinder {
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     const Mask<W> is_upper = Rims<W>(*this, n).is_upper;
-    const auto either = [&](T lower, T upper) { return select(is_upper, W(upper), W(lower)); };
+    const auto either = [&](const W& lower, const W& upper) {
+      return select(is_upper, upper, lower);
+    };
     Jet<W> jet;
-    jet.c.z() = either(heights[0], heights[1]);
+    jet.c.z() = either(W(heights[0]), W(heights[1]));
     jet.F(0, 0) = jet.F(1, 1) = W(radius);
-    jet.F(2, 0) = either(radius * lower_slope[0], radius * upper_slope[0]);
-    jet.F(2, 1) = either(radius * lower_slope[1], radius * upper_slope[1]);
+    jet.F(2, 0) = either(W(radius) * W(lower_slope[0]), W(radius) * W(upper_slope[0]));
+    jet.F(2, 1) = either(W(radius) * W(lower_slope[1]), W(radius) * W(upper_slope[1]));
     return jet;
   }
 
@@ -89,13 +90,13 @@ struct CutCylinder {
     Mask<W> is_upper;
 
     Rims(const CutCylinder& shape, const Vec3<W>& n) {
-      const auto seen_along_axis = [&](const std::array<T, 2>& slope) -> Vec3<W> {
+      const auto seen_along_axis = [&](const std::array<double, 2>& slope) -> Vec3<W> {
         return {n.x() + n.z() * W(slope[0]), n.y() + n.z() * W(slope[1]), W(0)};
       };
       const Vec3<W> a = seen_along_axis(shape.lower_slope), b = seen_along_axis(shape.upper_slope);
       lower = unit<W>(a);
       upper = unit<W>(b);
-      is_upper = n.z() * W(shape.heights[1] - shape.heights[0]) +
+      is_upper = n.z() * (W(shape.heights[1]) - W(shape.heights[0])) +
                      (b.dot(upper) - a.dot(lower)) * W(shape.radius) >
                  W(0);
     }

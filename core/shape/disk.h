@@ -15,9 +15,8 @@ Vec3<W> unit_disk_support(const Vec3<W>& n) {
   return unit<W>({n.x(), n.y(), W(0)});
 }
 
-template <class T>
 struct Disk {
-  T radius = T(1);
+  double radius = 1.0;
 
   static constexpr std::string_view name = "disk";
   static constexpr std::string_view doc =

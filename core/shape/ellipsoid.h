@@ -9,9 +9,8 @@
 
 namespace minkray {
 
-template <class T>
 struct Ellipsoid {
-  Vec3<T> radii = Vec3<T>::Ones();
+  Vec3<double> radii = Vec3<double>::Ones();
 
   static constexpr std::string_view name = "ellipsoid";
   static constexpr std::string_view doc = "An ellipsoid around the origin.";

@@ -10,10 +10,9 @@
 
 namespace minkray {
 
-template <class T>
 struct Frustum {
-  std::array<T, 2> radii = {T(1), T(1)};
-  T half_height = T(1);
+  std::array<double, 2> radii = {1.0, 1.0};
+  double half_height = 1.0;
 
   static constexpr std::string_view name = "frustum";
   static constexpr std::string_view doc = "A cone around the z axis, cut off by two disks.";
@@ -48,7 +47,7 @@ struct Frustum {
   /// True if the upper disk reaches further along n; `rim` is the unit disk's support point.
   template <class W>
   auto is_upper(const Vec3<W>& n, const Vec3<W>& rim) const {
-    return n.z() * W(T(2) * half_height) + n.dot(rim) * W(radii[1] - radii[0]) > W(0);
+    return n.z() * W(2.0 * half_height) + n.dot(rim) * W(radii[1] - radii[0]) > W(0);
   }
 };
 

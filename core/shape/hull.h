@@ -9,9 +9,8 @@
 
 namespace minkray {
 
-template <class T>
 struct Hull {
-  PointCloud<T> points;
+  PointCloud points;
 
   static constexpr std::string_view name = "hull";
   static constexpr std::string_view doc =

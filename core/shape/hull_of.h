@@ -9,9 +9,8 @@
 
 namespace minkray {
 
-template <class T>
 struct HullOf {
-  ShapeList<T> shapes;
+  ShapeList shapes;
 
   static constexpr std::string_view name = "hull_of";
   static constexpr std::string_view doc = "The convex hull of shapes.";
@@ -22,9 +21,9 @@ struct HullOf {
 
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
-    Vec3<W> best = shapes.front()->support(n);
+    Vec3<W> best = shapes.front().support(n);
     for (std::size_t i = 1; i < shapes.size(); ++i) {
-      const Vec3<W> candidate = shapes[i]->support(n);
+      const Vec3<W> candidate = shapes[i].support(n);
       best = select<W>(n.dot(candidate - best) > W(0), candidate, best);
     }
     return best;
@@ -32,10 +31,10 @@ struct HullOf {
 
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
-    Jet<W> best = shapes.front()->jet(n);
+    Jet<W> best = shapes.front().jet(n);
     W furthest = best.support_function(n);
     for (std::size_t i = 1; i < shapes.size(); ++i) {
-      const Jet<W> candidate = shapes[i]->jet(n);
+      const Jet<W> candidate = shapes[i].jet(n);
       const W along = candidate.support_function(n);
       const auto further = along > furthest;
       best = select<W>(further, candidate, best);

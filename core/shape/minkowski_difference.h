@@ -10,10 +10,9 @@
 
 namespace minkray {
 
-template <class T>
 struct MinkowskiDifference {
-  Nested<T> a;
-  Nested<T> b;
+  Nested a;
+  Nested b;
 
   static constexpr std::string_view name = "minkowski_difference";
   static constexpr std::string_view doc =
@@ -25,13 +24,13 @@ struct MinkowskiDifference {
 
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
-    return a->support(n) - b->support(Vec3<W>(-n));
+    return a.support(n) - b.support(Vec3<W>(-n));
   }
 
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
-    const Jet<W> mirrored = b->jet(Vec3<W>(-n));
-    return add<W>(a->jet(n),
+    const Jet<W> mirrored = b.jet(Vec3<W>(-n));
+    return add<W>(a.jet(n),
                   {Vec3<W>(-mirrored.c), mirrored.F, mirrored.exact, Vec3<W>(-mirrored.s)}, n);
   }
 };

@@ -9,9 +9,8 @@
 
 namespace minkray {
 
-template <class T>
 struct MinkowskiSum {
-  ShapeList<T> shapes;
+  ShapeList shapes;
 
   static constexpr std::string_view name = "minkowski_sum";
   static constexpr std::string_view doc = "All sums of one point of each of the shapes.";
@@ -22,15 +21,15 @@ struct MinkowskiSum {
 
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
-    Vec3<W> s = shapes.front()->support(n);
-    for (std::size_t i = 1; i < shapes.size(); ++i) s += shapes[i]->support(n);
+    Vec3<W> s = shapes.front().support(n);
+    for (std::size_t i = 1; i < shapes.size(); ++i) s += shapes[i].support(n);
     return s;
   }
 
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
-    Jet<W> sum = shapes.front()->jet(n);
-    for (std::size_t i = 1; i < shapes.size(); ++i) sum = add<W>(sum, shapes[i]->jet(n), n);
+    Jet<W> sum = shapes.front().jet(n);
+    for (std::size_t i = 1; i < shapes.size(); ++i) sum = add<W>(sum, shapes[i].jet(n), n);
     return sum;
   }
 };

@@ -9,9 +9,8 @@
 
 namespace minkray {
 
-template <class T>
 struct Point {
-  Vec3<T> position = Vec3<T>::Zero();
+  Vec3<double> position = Vec3<double>::Zero();
 
   static constexpr std::string_view name = "point";
   static constexpr std::string_view doc = "A single point; with a radius around it, a ball.";
@@ -22,7 +21,7 @@ struct Point {
 
   /// A ball of radius 0; rounding the point gives a ball.
   ExactForm exact_form() const {
-    const Vec3<T>& p = position;
+    const Vec3<double>& p = position;
     return {FormKind::ball, {0}, {double(p[0]), double(p[1]), double(p[2])}};
   }
 

@@ -10,10 +10,9 @@
 
 namespace minkray {
 
-template <class T>
 struct Rounded {
-  T radius = T(0);
-  Nested<T> shape;
+  double radius = 0.0;
+  Nested shape;
 
   static constexpr std::string_view name = "rounded";
   static constexpr std::string_view doc =
@@ -24,25 +23,17 @@ struct Rounded {
                       Field{"shape", &Rounded::shape, Unit::none, Range::any, "what is rounded"}};
   }
 
-  ExactForm exact_form() const {
-    return std::visit(
-        [&](const auto& inner) -> ExactForm {
-          if constexpr (requires { inner.exact_form(); })
-            return minkray::rounded(inner.exact_form(), double(radius));
-          else
-            return {};
-        },
-        shape->kind);
-  }
+  /// That of the shape within, if there is one.
+  ExactForm exact_form() const;
 
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
-    return shape->support(n) + unit(n) * W(radius);
+    return shape.support(n) + unit(n) * W(radius);
   }
 
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
-    return add<W>(shape->jet(n), AxialBallJet<W>{W(0), W(radius)}, n);
+    return add<W>(shape.jet(n), AxialBallJet<W>{W(0), W(radius)}, n);
   }
 };
 

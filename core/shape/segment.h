@@ -11,9 +11,8 @@
 
 namespace minkray {
 
-template <class T>
 struct Segment {
-  std::array<Vec3<T>, 2> points = {Vec3<T>::Zero(), Vec3<T>::Zero()};
+  std::array<Vec3<double>, 2> points = {Vec3<double>::Zero(), Vec3<double>::Zero()};
 
   static constexpr std::string_view name = "segment";
   static constexpr std::string_view doc = "The straight segment between two points.";
@@ -24,7 +23,7 @@ struct Segment {
 
   /// Used only if the segment is rounded.
   ExactForm exact_form() const {
-    const Vec3<double> a = points[0].template cast<double>(), b = points[1].template cast<double>();
+    const Vec3<double>&a = points[0], &b = points[1];
     const Vec3<double> half = (b - a) / 2, middle = a + half;
     return {
         FormKind::segment, {half.x(), half.y(), half.z(), 0}, {middle.x(), middle.y(), middle.z()}};

@@ -3,24 +3,25 @@
 
 namespace minkray {
 
-template <class T>
-Shape<T>::Shape(const Shape& other) = default;
-template <class T>
-Shape<T>::Shape(Shape&& other) noexcept = default;
-template <class T>
-Shape<T>& Shape<T>::operator=(const Shape& other) = default;
-template <class T>
-Shape<T>& Shape<T>::operator=(Shape&& other) noexcept = default;
-template <class T>
-Shape<T>::~Shape() = default;
+Shape::Shape(const Shape& other) = default;
+Shape::Shape(Shape&& other) noexcept = default;
+Shape& Shape::operator=(const Shape& other) = default;
+Shape& Shape::operator=(Shape&& other) noexcept = default;
+Shape::~Shape() = default;
 
-template struct Shape<float>;
-template struct Shape<double>;
-template struct Shape<long double>;
-template Vec3<float> Shape<float>::support(const Vec3<float>&) const;
-template Vec3<double> Shape<double>::support(const Vec3<double>&) const;
-template Vec3<long double> Shape<long double>::support(const Vec3<long double>&) const;
-template Jet<float> Shape<float>::jet(const Vec3<float>&) const;
-template Jet<double> Shape<double>::jet(const Vec3<double>&) const;
+ExactForm Rounded::exact_form() const {
+  return std::visit(
+      [&](const auto& inner) -> ExactForm {
+        if constexpr (requires { inner.exact_form(); })
+          return minkray::rounded(inner.exact_form(), radius);
+        else
+          return {};
+      },
+      shape->kind);
+}
+
+template Vec3<double> Shape::support(const Vec3<double>&) const;
+template Vec3<long double> Shape::support(const Vec3<long double>&) const;
+template Jet<double> Shape::jet(const Vec3<double>&) const;
 
 }  // namespace minkray

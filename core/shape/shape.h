@@ -32,29 +32,28 @@
 
 namespace minkray {
 
-template <class T>
 using ShapeVariant = std::variant<  //
-    Point<T>,                       //
-    Segment<T>,                     //
-    Triangle<T>,                    //
-    Sphere<T>,                      //
-    Ellipsoid<T>,                   //
-    Box<T>,                         //
-    Disk<T>,                        //
-    Cylinder<T>,                    //
-    CutCylinder<T>,                 //
-    Cone<T>,                        //
-    Capsule<T>,                     //
-    TaperedCapsule<T>,              //
-    Frustum<T>,                     //
-    Superellipsoid<T>,              //
-    Hull<T>,                        //
-    Rounded<T>,                     //
-    MinkowskiSum<T>,                //
-    MinkowskiDifference<T>,         //
-    HullOf<T>,                      //
-    Transform<T>,                   //
-    Custom<T>>;
+    Point,                          //
+    Segment,                        //
+    Triangle,                       //
+    Sphere,                         //
+    Ellipsoid,                      //
+    Box,                            //
+    Disk,                           //
+    Cylinder,                       //
+    CutCylinder,                    //
+    Cone,                           //
+    Capsule,                        //
+    TaperedCapsule,                 //
+    Frustum,                        //
+    Superellipsoid,                 //
+    Hull,                           //
+    Rounded,                        //
+    MinkowskiSum,                   //
+    MinkowskiDifference,            //
+    HullOf,                         //
+    Transform,                      //
+    Custom>;
 
 namespace detail {
 template <class S, class Variant>
@@ -63,12 +62,11 @@ template <class S, class... Kinds>
 inline constexpr bool is_alternative<S, std::variant<Kinds...>> = (std::is_same_v<S, Kinds> || ...);
 }  // namespace detail
 
-template <class T>
 struct Shape {
-  ShapeVariant<T> kind;
+  ShapeVariant kind;
 
   template <class S>
-  requires detail::is_alternative<S, ShapeVariant<T>> Shape(S shape) : kind(std::move(shape)) {}
+  requires detail::is_alternative<S, ShapeVariant> Shape(S shape) : kind(std::move(shape)) {}
 
   // Compiled once, in shape.cpp, since each of these dispatches on every kind of shape.
   Shape(const Shape& other);
@@ -91,23 +89,30 @@ struct Shape {
   }
 };
 
-extern template struct Shape<float>;
-extern template struct Shape<double>;
-extern template struct Shape<long double>;
-extern template Vec3<float> Shape<float>::support(const Vec3<float>&) const;
-extern template Vec3<double> Shape<double>::support(const Vec3<double>&) const;
-extern template Vec3<long double> Shape<long double>::support(const Vec3<long double>&) const;
-extern template Jet<float> Shape<float>::jet(const Vec3<float>&) const;
-extern template Jet<double> Shape<double>::jet(const Vec3<double>&) const;
+inline Nested::Nested(Shape shape) : shape_(std::make_shared<const Shape>(std::move(shape))) {}
 
-static_assert(SupportMapped<Shape<float>, float> && SupportMapped<Shape<double>, double>);
+template <class W>
+Vec3<W> Nested::support(const Vec3<W>& n) const {
+  return shape_->support(n);
+}
 
-/// Calls visit.template operator()<S>() for every kind of shape S with scalar T, in order.
-template <class T, class Visit>
+template <class W>
+Jet<W> Nested::jet(const Vec3<W>& n) const {
+  return shape_->jet(n);
+}
+
+extern template Vec3<double> Shape::support(const Vec3<double>&) const;
+extern template Vec3<long double> Shape::support(const Vec3<long double>&) const;
+extern template Jet<double> Shape::jet(const Vec3<double>&) const;
+
+static_assert(SupportMapped<Shape, double>);
+
+/// Calls visit.template operator()<S>() for every kind of shape S, in order.
+template <class Visit>
 void for_each_shape_kind(Visit&& visit) {
   [&]<class... S>(std::type_identity<std::variant<S...>>) {
     (visit.template operator()<S>(), ...);
-  }(std::type_identity<ShapeVariant<T>>());
+  }(std::type_identity<ShapeVariant>());
 }
 
 }  // namespace minkray

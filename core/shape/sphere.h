@@ -9,9 +9,8 @@
 
 namespace minkray {
 
-template <class T>
 struct Sphere {
-  T radius = T(1);
+  double radius = 1.0;
 
   static constexpr std::string_view name = "sphere";
   static constexpr std::string_view doc = "A ball around the origin.";

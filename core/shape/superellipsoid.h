@@ -10,10 +10,9 @@
 
 namespace minkray {
 
-template <class T>
 struct Superellipsoid {
-  Vec3<T> radii = Vec3<T>::Ones();
-  T exponent = T(2);
+  Vec3<double> radii = Vec3<double>::Ones();
+  double exponent = 2.0;
 
   static constexpr std::string_view name = "superellipsoid";
   static constexpr std::string_view doc = "All points with |x/a|^p + |y/b|^p + |z/c|^p <= 1.";
@@ -32,17 +31,18 @@ struct Superellipsoid {
   Vec3<W> support(const Vec3<W>& n) const {
     using std::abs;
     using std::max;
+    using N = Lane<W>;
     const Vec3<W> a = widen<W>(radii);
     const Vec3<W> an = n.cwiseProduct(a);
     const Vec3<W> m(abs(an.x()), abs(an.y()), abs(an.z()));
     const W largest = max(m.x(), max(m.y(), m.z()));
     const W scale = select(largest > W(0), largest, W(1));
-    const T q_less_1 = T(1) / (exponent - T(1));
+    const N p = N(exponent), q_less_1 = N(1) / (p - N(1));
     const Vec3<W> u(m.x() / scale, m.y() / scale, m.z() / scale);
     const Vec3<W> powers(power<W>(u.x(), q_less_1), power<W>(u.y(), q_less_1),
                          power<W>(u.z(), q_less_1));
     const W sum = u.dot(powers);
-    const W length = power<W>(select(sum > W(0), sum, W(1)), T(1) / exponent);
+    const W length = power<W>(select(sum > W(0), sum, W(1)), N(1) / p);
     const Vec3<W> s = powers.cwiseProduct(a) * (W(1) / length);
     return {select(n.x() < W(0), W(-s.x()), s.x()), select(n.y() < W(0), W(-s.y()), s.y()),
             select(n.z() < W(0), W(-s.z()), s.z())};
@@ -56,18 +56,19 @@ struct Superellipsoid {
   Jet<W> jet(const Vec3<W>& n) const {
     using std::abs;
     using std::max;
-    if (exponent == T(2)) return AxialEllipsoidJet<W>{widen<W>(radii)};
-    if (!(exponent > T(1))) return PointJet<W>{support(n)};
+    using N = Lane<W>;
+    if (exponent == 2) return AxialEllipsoidJet<W>{widen<W>(radii)};
+    if (!(exponent > 1)) return PointJet<W>{support(n)};
     const Vec3<W> a = widen<W>(radii);
     const Vec3<W> s = support(n);
     const Vec3<W> g = s.cwiseQuotient(a);
-    const T q = exponent / (exponent - T(1));
-    const T least = exponent > T(2) ? least_of_jet : T(0);
-    Mat3<W> A = g * g.transpose() * W(T(2) - q);
+    const N p = N(exponent), q = p / (p - N(1));
+    const N least = exponent > 2 ? N(least_of_jet) : N(0);
+    Mat3<W> A = g * g.transpose() * W(N(2) - q);
     for (int i = 0; i < 3; ++i) {
       // |g_i| = u_i^(q-1), so u_i^(q-2) = |g_i|^((q-2)/(q-1)).
       const W size = max(W(abs(g[i])), W(least));
-      A(i, i) += W(q - T(1)) * power<W>(size, (q - T(2)) / (q - T(1)));
+      A(i, i) += W(q - N(1)) * power<W>(size, (q - N(2)) / (q - N(1)));
     }
     return {Vec3<W>::Zero(), a.asDiagonal() * factor<W>(A), Mask<W>(false), s};
   }
@@ -90,16 +91,17 @@ struct Superellipsoid {
     using std::abs;
     using std::copysign;
     using std::max;
+    using N = Lane<W>;
     const Vec3<W> x = u + v * lambda;
     const Vec3<W> size(abs(x.x()), abs(x.y()), abs(x.z()));
     const W largest = max(size.x(), max(size.y(), size.z()));
     const Vec3<W> k = size * (W(1) / select(largest > W(0), largest, W(1)));
-    const T p = exponent;
-    const Vec3<W> powers(power<W>(k.x(), p - T(1)), power<W>(k.y(), p - T(1)),
-                         power<W>(k.z(), p - T(1)));
+    const N p = N(exponent);
+    const Vec3<W> powers(power<W>(k.x(), p - N(1)), power<W>(k.y(), p - N(1)),
+                         power<W>(k.z(), p - N(1)));
     // The largest k is 1 up to rounding.
     const W sum = max(W(1), W(powers.dot(k)));
-    const W root = power<W>(sum, T(1) / p), scale = root / sum;
+    const W root = power<W>(sum, N(1) / p), scale = root / sum;
     Gauge<W> gauge;
     gauge.value = largest * root;
     W squares(0);
@@ -110,17 +112,17 @@ struct Superellipsoid {
     gauge.slope = gauge.gradient.dot(v);
     const W slope_squared = gauge.slope * gauge.slope;
     gauge.curvature =
-        slope_squared + W(p - T(1)) * max(W(squares * (root * scale) - slope_squared), W(0));
+        slope_squared + W(p - N(1)) * max(W(squares * (root * scale) - slope_squared), W(0));
     return gauge;
   }
 
  private:
   /// Lower limit of coordinates that are divisors in the second derivative, which is infinite on
   /// the coordinate planes for p < 2.
-  static constexpr T least_curvature = T(1) / T(4096);
+  static constexpr double least_curvature = 1.0 / 4096;
   /// Lower limit of g. For p up to 4, the osculating ellipsoid is at most about 1/least_of_jet
   /// times as long as the shape.
-  static constexpr T least_of_jet = T(1) / T(256);
+  static constexpr double least_of_jet = 1.0 / 256;
 };
 
 }  // namespace minkray

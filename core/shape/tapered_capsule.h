@@ -11,10 +11,9 @@
 
 namespace minkray {
 
-template <class T>
 struct TaperedCapsule {
-  std::array<T, 2> radii = {T(1), T(1)};
-  T half_height = T(1);
+  std::array<double, 2> radii = {1.0, 1.0};
+  double half_height = 1.0;
 
   static constexpr std::string_view name = "tapered_capsule";
   static constexpr std::string_view doc =
@@ -50,7 +49,7 @@ struct TaperedCapsule {
   /// True if the upper ball reaches further along the unit vector u.
   template <class W>
   auto is_upper(const Vec3<W>& u) const {
-    return u.z() * W(T(2) * half_height) + W(radii[1] - radii[0]) * u.squaredNorm() > W(0);
+    return u.z() * W(2 * half_height) + (W(radii[1]) - W(radii[0])) * u.squaredNorm() > W(0);
   }
 };
 

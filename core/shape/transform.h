@@ -9,10 +9,9 @@
 
 namespace minkray {
 
-template <class T>
 struct Transform {
-  Nested<T> shape;
-  AffineMap<T> map;
+  Nested shape;
+  AffineMap map;
 
   static constexpr std::string_view name = "transform";
   static constexpr std::string_view doc =
@@ -27,21 +26,21 @@ struct Transform {
 
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
-    return map(shape->support(map.inner_direction(n)));
+    return map(shape.support(map.inner_direction(n)));
   }
 
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
-    const Jet<W> inner = shape->jet(map.inner_direction(n));
+    const Jet<W> inner = shape.jet(map.inner_direction(n));
     return {map(inner.c), mapped_factor<W>(inner.F), inner.exact, map(inner.s)};
   }
 
   /// Maps an ellipsoid's factor F. A ball stays a ball if the map scales all lengths equally.
   template <class W>
   Mat3<W> mapped_factor(const Mat3<W>& F) const {
-    Mat3<W> mapped = widen<W, T>(map.affine().linear) * F;
-    if (map.similarity() > T(0)) {
-      // Decided for each lane, so that no lane depends on others.
+    Mat3<W> mapped = widen<W, double>(map.affine().linear) * F;
+    if (map.similarity() > 0.0) {
+      // Decides for each lane, so that no lane depends on the others.
       const Mat3<W> ball = Mat3<W>::Identity() * F(0, 0);
       const Mask<W> is_ball = (F - ball).cwiseAbs().sum() == W(0);
       const Mat3<W> scaled = ball * W(map.similarity());

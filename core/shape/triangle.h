@@ -11,9 +11,9 @@
 
 namespace minkray {
 
-template <class T>
 struct Triangle {
-  std::array<Vec3<T>, 3> points = {Vec3<T>::Zero(), Vec3<T>::Zero(), Vec3<T>::Zero()};
+  std::array<Vec3<double>, 3> points = {Vec3<double>::Zero(), Vec3<double>::Zero(),
+                                        Vec3<double>::Zero()};
 
   static constexpr std::string_view name = "triangle";
   static constexpr std::string_view doc = "A flat triangle.";

@@ -10,50 +10,51 @@ namespace minkray {
 namespace {
 
 /// The supports of a flat shape in the plane z = 0, which of any other are its shadow's.
-template <class T, int Dim>
-Vec<T, Dim> support_in(const Shape<T>& shape, const Vec<T, Dim>& v) {
-  Vec3<T> direction = Vec3<T>::Zero();
+template <int Dim>
+Vec<double, Dim> support_in(const Shape& shape, const Vec<double, Dim>& v) {
+  Vec3<double> direction = Vec3<double>::Zero();
   direction.template head<Dim>() = v;
   return shape.support(direction).template head<Dim>();
 }
 
 /// Passes the iteration to the observer, with lengths in another unit.
-template <class T, int Dim>
-void tell_in(T unit, const DistanceIteration<T, Dim>& iteration,
-             const std::function<void(const DistanceIteration<T, Dim>&)>& observer) {
-  const auto scaled = [unit](std::span<const Vec<T, Dim>> points) {
-    std::vector<Vec<T, Dim>> all;
-    for (const Vec<T, Dim>& point : points) all.push_back(unit * point);
+template <int Dim>
+void tell_in(double unit, const DistanceIteration<double, Dim>& iteration,
+             const std::function<void(const DistanceIteration<double, Dim>&)>& observer) {
+  const auto scaled = [unit](std::span<const Vec<double, Dim>> points) {
+    std::vector<Vec<double, Dim>> all;
+    for (const Vec<double, Dim>& point : points) all.push_back(unit * point);
     return all;
   };
-  const std::vector<Vec<T, Dim>> before = scaled(iteration.before), after = scaled(iteration.after);
+  const std::vector<Vec<double, Dim>> before = scaled(iteration.before),
+                                      after = scaled(iteration.after);
   observer({unit * iteration.v, unit * iteration.w, unit * iteration.v_next, unit * iteration.lower,
             unit * iteration.upper, before, after});
 }
 
 /// A unit in which squares of lengths are numbers: a power of two, which rounds nothing.
-template <class T>
-T unit_for(T largest) {
-  constexpr T least = std::numeric_limits<T>::min();
+double unit_for(double largest) {
+  constexpr double least = std::numeric_limits<double>::min();
   return largest < least ? least : leading_power_of_two(largest);
 }
 
-/// Computes in numbers of type F; the shapes' supports are of type T.
-template <class F, class T, int Dim>
-DistanceResult<T, Dim> solve(
-    const CentredShape<T>& a, const CentredShape<T>& b, const DistanceOptions<T, Dim>& options,
+/// Computes in numbers of type F; the shapes' supports are of type double.
+template <class F, int Dim>
+DistanceResult<double, Dim> solve(
+    const CentredShape& a, const CentredShape& b, const DistanceOptions<double, Dim>& options,
     SubalgorithmKind subalgorithm,
-    const std::function<void(const DistanceIteration<T, Dim>&)>& observer) {
-  const Vec<T, Dim> apart = (b.centre - a.centre).template head<Dim>();
-  const T largest = std::max(a.radius + b.radius, apart.cwiseAbs().maxCoeff());
+    const std::function<void(const DistanceIteration<double, Dim>&)>& observer) {
+  const Vec<double, Dim> apart = (b.centre - a.centre).template head<Dim>();
+  const double largest = std::max(a.radius + b.radius, apart.cwiseAbs().maxCoeff());
   if (!std::isfinite(largest)) return {};
-  const T unit = unit_for(largest);
+  const double unit = unit_for(largest);
   const auto supports = [&](const Vec<F, Dim>& v) {
-    // A direction of T's range.
-    const Vec<T, Dim> n =
-        (std::is_same_v<F, T> ? v : Vec<F, Dim>(v / v.cwiseAbs().maxCoeff())).template cast<T>();
-    const Vec<T, Dim> p = support_in<T, Dim>(a.about_centre, n) / unit,
-                      q = support_in<T, Dim>(b.about_centre, Vec<T, Dim>(-n)) / unit;
+    // A direction in the range of double.
+    const Vec<double, Dim> n =
+        (std::is_same_v<F, double> ? v : Vec<F, Dim>(v / v.cwiseAbs().maxCoeff()))
+            .template cast<double>();
+    const Vec<double, Dim> p = support_in<Dim>(a.about_centre, n) / unit,
+                           q = support_in<Dim>(b.about_centre, Vec<double, Dim>(-n)) / unit;
     return SupportPair<F, Dim>{p.template cast<F>(), q.template cast<F>()};
   };
   const Vec<F, Dim> x = (apart / unit).template cast<F>();
@@ -63,25 +64,25 @@ DistanceResult<T, Dim> solve(
                                              options.only_separation};
   const DistanceResult<F, Dim> found =
       with_subalgorithm<F, Dim>(subalgorithm, [&]<class G>(G Y) -> DistanceResult<F, Dim> {
-        if constexpr (std::is_same_v<F, T>) {
-          const auto tell = [&](const DistanceIteration<T, Dim>& iteration) {
+        if constexpr (std::is_same_v<F, double>) {
+          const auto tell = [&](const DistanceIteration<double, Dim>& iteration) {
             tell_in(unit, iteration, observer);
           };
           if (observer) return gjk_distance<F, Dim>(supports, x, radius, same_options, Y, tell);
         }
         return gjk_distance<F, Dim>(supports, x, radius, same_options, Y);
       });
-  const Vec<T, Dim> centre = a.centre.template head<Dim>();
-  const auto placed = [&](const Vec<F, Dim>& p) -> Vec<T, Dim> {
-    return p.template cast<T>() * unit + centre;
+  const Vec<double, Dim> centre = a.centre.template head<Dim>();
+  const auto placed = [&](const Vec<F, Dim>& p) -> Vec<double, Dim> {
+    return p.template cast<double>() * unit + centre;
   };
   return {found.status,
-          T(found.distance) * unit,
-          T(found.lower) * unit,
-          T(found.certificate) * unit * unit,
+          double(found.distance) * unit,
+          double(found.lower) * unit,
+          double(found.certificate) * unit * unit,
           placed(found.point_a),
           placed(found.point_b),
-          found.axis.template cast<T>(),
+          found.axis.template cast<double>(),
           found.iterations,
           found.supports,
           found.backups};
@@ -89,31 +90,28 @@ DistanceResult<T, Dim> solve(
 
 /// True if rounding ended the loop before its two bounds met: curved surfaces near each other make
 /// simplices that are slivers.
-template <class T>
-bool is_coarse(const DistanceResult<T, 3>& result, T size) {
+bool is_coarse(const DistanceResult<double, 3>& result, double size) {
   if (result.status == DistanceStatus::overlapping) return false;
-  const T rounding = tolerance::distance_gap<T> * (result.distance + size);
-  return !(result.distance - result.lower <= T(4) * rounding);
+  const double rounding = tolerance::distance_gap<double> * (result.distance + size);
+  return !(result.distance - result.lower <= 4.0 * rounding);
 }
 
 }  // namespace
 
-template <class T>
-DistanceResult<T, 3> distance_between(const CentredShape<T>& a, const CentredShape<T>& b,
-                                      const DistanceOptions<T, 3>& options,
-                                      SubalgorithmKind subalgorithm,
-                                      const DistanceObserver<T>& observer) {
-  const DistanceResult<T, 3> result = solve<T, T, 3>(a, b, options, subalgorithm, observer);
+DistanceResult<double, 3> distance_between(const CentredShape& a, const CentredShape& b,
+                                           const DistanceOptions<double, 3>& options,
+                                           SubalgorithmKind subalgorithm,
+                                           const DistanceObserver& observer) {
+  const DistanceResult<double, 3> result = solve<double, 3>(a, b, options, subalgorithm, observer);
   const bool was_free = result.iterations > 0 && result.iterations < options.max_iterations &&
                         !options.only_separation;
   if (!was_free || subalgorithm != SubalgorithmKind::projection ||
       !is_coarse(result, a.radius + b.radius))
     return result;
   // Once more from its answer, with the supports as they are, but more digits for their simplices.
-  using Finer = std::conditional_t<std::is_same_v<T, float>, double, long double>;
-  DistanceOptions<T, 3> from_there = options;
+  DistanceOptions<double, 3> from_there = options;
   from_there.v0 = result.axis;
-  DistanceResult<T, 3> finer = solve<Finer, T, 3>(a, b, from_there, subalgorithm, {});
+  DistanceResult<double, 3> finer = solve<long double, 3>(a, b, from_there, subalgorithm, {});
   const bool is_possible =
       finer.status == DistanceStatus::separated ||
       (finer.status == DistanceStatus::overlapping && result.status == DistanceStatus::exhausted);
@@ -125,23 +123,11 @@ DistanceResult<T, 3> distance_between(const CentredShape<T>& a, const CentredSha
   return finer;
 }
 
-template <class T>
-DistanceResult<T, 2> distance_in_plane(
-    const CentredShape<T>& a, const CentredShape<T>& b, const DistanceOptions<T, 2>& options,
+DistanceResult<double, 2> distance_in_plane(
+    const CentredShape& a, const CentredShape& b, const DistanceOptions<double, 2>& options,
     SubalgorithmKind subalgorithm,
-    const std::function<void(const DistanceIteration<T, 2>&)>& observer) {
-  return solve<T, T, 2>(a, b, options, subalgorithm, observer);
+    const std::function<void(const DistanceIteration<double, 2>&)>& observer) {
+  return solve<double, 2>(a, b, options, subalgorithm, observer);
 }
-
-#define MINKRAY_INSTANTIATE(T)                                                                   \
-  template DistanceResult<T, 3> distance_between(const CentredShape<T>&, const CentredShape<T>&, \
-                                                 const DistanceOptions<T, 3>&, SubalgorithmKind, \
-                                                 const DistanceObserver<T>&);                    \
-  template DistanceResult<T, 2> distance_in_plane(                                               \
-      const CentredShape<T>&, const CentredShape<T>&, const DistanceOptions<T, 2>&,              \
-      SubalgorithmKind, const std::function<void(const DistanceIteration<T, 2>&)>&);
-MINKRAY_INSTANTIATE(float)
-MINKRAY_INSTANTIATE(double)
-#undef MINKRAY_INSTANTIATE
 
 }  // namespace minkray

@@ -10,24 +10,20 @@
 
 namespace minkray {
 
-template <class T>
-using DistanceObserver = std::function<void(const DistanceIteration<T, 3>&)>;
+using DistanceObserver = std::function<void(const DistanceIteration<double, 3>&)>;
 
-/// Points and axis are in the world. The error of the distance is a few epsilon of the distance and
-/// of the sizes; for curved shapes in double at most 1e-9. `lower` is a lower bound. Shapes that
-/// touch count as overlapping, unless the result is exhausted. The observer receives every
-/// iteration except those of a retry.
-template <class T>
-DistanceResult<T, 3> distance_between(const CentredShape<T>& a, const CentredShape<T>& b,
-                                      const DistanceOptions<T, 3>& options = {},
-                                      SubalgorithmKind subalgorithm = SubalgorithmKind::projection,
-                                      const DistanceObserver<T>& observer = {});
-
-/// Distance in the plane: between the shapes' projections onto z = 0.
-template <class T>
-DistanceResult<T, 2> distance_in_plane(
-    const CentredShape<T>& a, const CentredShape<T>& b, const DistanceOptions<T, 2>& options = {},
+/// Points and axis are in the world. The distance is exact to a few epsilon of itself and of the
+/// sizes, of curved shapes in double to 1e-9 at worst; `lower` bounds it. Touching counts as
+/// overlapping, unless it is exhausted. The observer sees every iteration but those of a retry.
+DistanceResult<double, 3> distance_between(
+    const CentredShape& a, const CentredShape& b, const DistanceOptions<double, 3>& options = {},
     SubalgorithmKind subalgorithm = SubalgorithmKind::projection,
-    const std::function<void(const DistanceIteration<T, 2>&)>& observer = {});
+    const DistanceObserver& observer = {});
+
+/// Measures in the plane: between the shapes' shadows on z = 0.
+DistanceResult<double, 2> distance_in_plane(
+    const CentredShape& a, const CentredShape& b, const DistanceOptions<double, 2>& options = {},
+    SubalgorithmKind subalgorithm = SubalgorithmKind::projection,
+    const std::function<void(const DistanceIteration<double, 2>&)>& observer = {});
 
 }  // namespace minkray

@@ -7,23 +7,24 @@
 
 namespace minkray {
 
-template <class T>
 struct MovingBody {
-  Shape<T> shape;
-  Affine<T> pose;  ///< at time 0, from the shape's frame to the world; its translation is the pivot
-  Vec3<T> velocity = Vec3<T>::Zero();          ///< of the pivot
-  Vec3<T> angular_velocity = Vec3<T>::Zero();  ///< about the pivot, radians per unit of time
+  Shape shape;
+  Affine<double>
+      pose;  ///< at time 0, from the shape's frame to the world; its translation is the pivot
+  Vec3<double> velocity = Vec3<double>::Zero();  ///< of the pivot
+  Vec3<double> angular_velocity =
+      Vec3<double>::Zero();  ///< about the pivot, radians per unit of time
 };
 
-template <class T>
 struct RotatingCastResult {
   Status status = Status::exhausted;
-  T t = T(0);               ///< the approximation's first contact
-  T t_lo = T(0);            ///< no true contact before this time
-  bool proven = false;      ///< the miss also holds for the true motion
-  T position_error = T(0);  ///< bound of the true bodies' gap, or overlap, at t
-  Vec3<T> point_a = Vec3<T>::Zero(), point_b = Vec3<T>::Zero(), normal = Vec3<T>::Zero();
-  int steps = 0;  ///< number of steps that were cast
+  double t = 0.0;               ///< the approximation's first contact
+  double t_lo = 0.0;            ///< no true contact before this; a miss: none at all if `proven`
+  bool proven = false;          ///< a miss holds for the true motion too
+  double position_error = 0.0;  ///< bound on the true bodies' gap, or overlap, at t
+  Vec3<double> point_a = Vec3<double>::Zero(), point_b = Vec3<double>::Zero(),
+               normal = Vec3<double>::Zero();
+  int steps = 0;  ///< that were cast
   int iterations = 0;
   int supports = 0;
 };
@@ -35,12 +36,10 @@ struct RotatingCastResult {
 /// `position_error` is the sum for the two bodies. A second cast uses the obstacle grown by
 /// position_error, whose first contact is never later than the true contact. So t_lo is a proven
 /// bound, and t is the result of the approximation.
-template <class T>
-RotatingCastResult<T> cast_rotating(const MovingBody<T>& a, const MovingBody<T>& b, T duration,
-                                    int steps, const CastOptions<T>& options = {});
+RotatingCastResult cast_rotating(const MovingBody& a, const MovingBody& b, double duration,
+                                 int steps, const CastOptions& options = {});
 
 /// The pose of a body at a time.
-template <class T>
-Affine<T> pose_at(const MovingBody<T>& body, T time);
+Affine<double> pose_at(const MovingBody& body, double time);
 
 }  // namespace minkray

@@ -7,26 +7,20 @@
 namespace minkray {
 
 /// Files specify the map by `translate`, `rotate` and `scale`, or by `matrix`. Must be invertible.
-template <class T>
 class AffineMap {
  public:
   AffineMap() = default;
-  /// M^T is stored divided by M's largest entry, so that directions stay near unit length for any
-  /// scale of the map. Support mappings ignore a direction's length.
-  AffineMap(const Affine<T>& affine)
+  /// M^T is stored divided by M's largest entry (support mappings ignore a direction's length), so
+  /// that directions stay near unit length however small or large the map's scale is.
+  AffineMap(const Affine<double>& affine)
       : affine_(affine),
         to_inner_(affine.linear.transpose() / affine.linear.cwiseAbs().maxCoeff()),
         similarity_(similarity_of(affine.linear)) {}
 
-  const Affine<T>& affine() const { return affine_; }
+  const Affine<double>& affine() const { return affine_; }
 
   /// Factor by which the map scales all lengths, up to rounding; 0 if lengths scale differently.
-  T similarity() const { return similarity_; }
-
-  template <class U>
-  AffineMap<U> cast() const {
-    return AffineMap<U>(affine_.template cast<U>());
-  }
+  double similarity() const { return similarity_; }
 
   /// Direction for the inner shape's support mapping.
   template <class W>
@@ -40,17 +34,17 @@ class AffineMap {
   }
 
  private:
-  static T similarity_of(const Mat3<T>& linear) {
-    constexpr T rounding = T(4) * std::numeric_limits<T>::epsilon();
-    const Mat3<T> squared = linear * linear.transpose();
-    const T scale = squared.trace() / T(3);
-    const Mat3<T> rest = squared - Mat3<T>::Identity() * scale;
-    return rest.cwiseAbs().maxCoeff() <= rounding * scale ? std::sqrt(scale) : T(0);
+  static double similarity_of(const Mat3<double>& linear) {
+    constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+    const Mat3<double> squared = linear * linear.transpose();
+    const double scale = squared.trace() / 3.0;
+    const Mat3<double> rest = squared - Mat3<double>::Identity() * scale;
+    return rest.cwiseAbs().maxCoeff() <= rounding * scale ? std::sqrt(scale) : 0.0;
   }
 
-  Affine<T> affine_;
-  Mat3<T> to_inner_ = Mat3<T>::Identity();
-  T similarity_ = T(1);
+  Affine<double> affine_;
+  Mat3<double> to_inner_ = Mat3<double>::Identity();
+  double similarity_ = 1.0;
 };
 
 }  // namespace minkray

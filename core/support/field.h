@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Descriptions of a shape's parameters. These generate the JSON reader and writer, error messages
-// that name the parameter, `minkray info --shapes`, the JSON Schema, the conversion between float
-// and double, and the typed tests.
+// Descriptions of a shape's parameters, from which follow: reading and writing JSON, error messages
+// that name the parameter, `minkray info --shapes`, and the JSON Schema.
 #pragma once
 
 #include <string_view>
@@ -26,11 +25,11 @@ enum class Range {
 /// millions, are finite in a picture of floats (up to 3.4e38).
 inline constexpr double most_brightness = 1e15;
 
-/// One parameter: a member of shape S. The member's type determines the parameter's JSON: for T a
-/// number, for std::array<T, 2> and Vec3<T> a list of two or three numbers, for std::array<Vec3<T>,
-/// N> a list of N points, for Nested<T> a shape, for ShapeList<T> a list of shapes, for
-/// PointCloud<T> points or a mesh file, for AffineMap<T> the keys of a pose. An omitted optional
-/// parameter keeps its initial value.
+/// One parameter: the member of shape S that holds it. The member's type determines its form in
+/// JSON: T a number, std::array<T, 2> and Vec3<T> lists of two and three, std::array<Vec3<T>, N> a
+/// list of N points, Nested a shape, ShapeList a list of shapes, PointCloud points or a
+/// mesh file, AffineMap the keys of a pose. An optional parameter keeps its initial value if
+/// left out.
 template <class S, class M>
 struct Field {
   using Member = M;

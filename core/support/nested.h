@@ -4,30 +4,34 @@
 #pragma once
 
 #include <memory>
-#include <utility>
 #include <vector>
+
+#include "core/support/jet.h"
 
 namespace minkray {
 
-template <class T>
 struct Shape;
 
-/// One operand.
-template <class T>
+/// One operand. Its members are defined in core/shape/shape.h.
 class Nested {
  public:
   Nested() = default;
-  Nested(Shape<T> shape) : shape_(std::make_shared<const Shape<T>>(std::move(shape))) {}
+  Nested(Shape shape);
 
-  const Shape<T>& operator*() const { return *shape_; }
-  const Shape<T>* operator->() const { return shape_.get(); }
+  const Shape& operator*() const { return *shape_; }
+  const Shape* operator->() const { return shape_.get(); }
+
+  /// Those of the shape.
+  template <class W>
+  Vec3<W> support(const Vec3<W>& n) const;
+  template <class W>
+  Jet<W> jet(const Vec3<W>& n) const;
 
  private:
-  std::shared_ptr<const Shape<T>> shape_;
+  std::shared_ptr<const Shape> shape_;
 };
 
 /// One or more operands.
-template <class T>
-using ShapeList = std::vector<Nested<T>>;
+using ShapeList = std::vector<Nested>;
 
 }  // namespace minkray

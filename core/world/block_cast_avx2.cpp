@@ -42,11 +42,11 @@ using D = Wide<double, 4, IsaAvx2>;
 
 /// A body at one place per lane, in the form that the filter reads.
 struct Placed {
-  const ShapeDefinition<double>& of;
+  const ShapeDefinition& of;
   Vec3<D> at;
   Mat3<D> map;
   bool is_turned;
-  const ShapeDefinition<double>& definition() const { return of; }
+  const ShapeDefinition& definition() const { return of; }
   const Vec3<D>& centre() const { return at; }
   const Mat3<D>* linear_to_inner() const { return is_turned ? &map : nullptr; }
 };
@@ -72,7 +72,7 @@ struct Placed {
 }  // namespace
 
 void cast_four_avx2(const InstanceBody& body, const FourPairs& pairs, LaneBits lanes,
-                    CastPacket<double>& answers) {
+                    CastPacket& answers) {
   Ray<D> ray;
   ray.origin = vectors(pairs.ray, 0, nullptr);
   ray.direction = vectors(pairs.ray, 3, &ray.t_max);
@@ -103,6 +103,6 @@ void cast_four_avx2(const InstanceBody& body, const FourPairs& pairs, LaneBits l
 #else
 namespace minkray {
 /// Never called on machines without AVX2.
-void cast_four_avx2(const InstanceBody&, const FourPairs&, LaneBits, CastPacket<double>&) {}
+void cast_four_avx2(const InstanceBody&, const FourPairs&, LaneBits, CastPacket&) {}
 }  // namespace minkray
 #endif

@@ -13,7 +13,7 @@ namespace minkray {
 /// InstancePlace maps the world to the body's frame: the inner frame of the definition. Its origin
 /// is that of the shape's own frame if the body is plain, else the inner ball's centre.
 struct InstanceBody {
-  std::shared_ptr<const ShapeDefinition<double>> definition;
+  std::shared_ptr<const ShapeDefinition> definition;
   std::uint32_t number = 0;                    ///< number of the definition
   Vec3<double> centre = Vec3<double>::Zero();  ///< of the inner ball, in the body's frame
   bool is_centred = true;                      ///< centre is zero

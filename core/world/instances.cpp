@@ -31,26 +31,25 @@ Bounds<double> padded(const Bounds<double>& bounds) {
 
 }  // namespace
 
-std::uint32_t Instances::number_of(std::shared_ptr<const ShapeDefinition<double>> definition) {
+std::uint32_t Instances::number_of(std::shared_ptr<const ShapeDefinition> definition) {
   Defined defined{std::move(definition), {}};
   defined.bodies.fill(no_body);
   definitions_.push_back(std::move(defined));
   return static_cast<std::uint32_t>(definitions_.size() - 1);
 }
 
-std::uint32_t Instances::define(Shape<double> shape) {
+std::uint32_t Instances::define(Shape shape) {
   const std::vector<std::uint64_t> key = key_of(shape);
   const std::size_t hash = hash_of(key);
   const auto [first, end] = equal_.equal_range(hash);
   for (auto at = first; at != end; ++at)
     if (key_of(definition(at->second).original_shape()) == key) return at->second;
-  const std::uint32_t number =
-      number_of(std::make_shared<const ShapeDefinition<double>>(std::move(shape)));
+  const std::uint32_t number = number_of(std::make_shared<const ShapeDefinition>(std::move(shape)));
   equal_.emplace(hash, number);
   return number;
 }
 
-std::uint32_t Instances::define(const std::shared_ptr<const ShapeDefinition<double>>& shared) {
+std::uint32_t Instances::define(const std::shared_ptr<const ShapeDefinition>& shared) {
   const auto known = shared_.find(shared.get());
   if (known != shared_.end()) return known->second;
   const std::vector<std::uint64_t> key = key_of(shared->original_shape());
@@ -268,7 +267,7 @@ double Instances::half_extent(std::size_t i) const {
   const InstanceBody& body = body_of(i);
   if (!body.is_turned) return body.definition->inner_half_extents().maxCoeff();
   const Mat3<double> to_world = inverse_of(to_inner(i));
-  const Shape<double>& shape = body.definition->inner_shape();
+  const Shape& shape = body.definition->inner_shape();
   double largest = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const Vec3<double> along = to_world.row(axis).transpose();
@@ -328,7 +327,7 @@ void Instances::pose_all(const std::function<Affine<double>(std::size_t)>& pose_
 }
 
 std::size_t Instances::bytes() const {
-  return definitions_.size() * (sizeof(ShapeDefinition<double>) + sizeof(Defined)) +
+  return definitions_.size() * (sizeof(ShapeDefinition) + sizeof(Defined)) +
          bodies_.size() * (sizeof(InstanceBody) + sizeof(Screen)) +
          places_.capacity() * sizeof(InstancePlace) + digits_.capacity() * sizeof(TrailingDigits) +
          movements_.capacity() * sizeof(movements_[0]) + shown_to_.capacity() * sizeof(RayKinds) +

@@ -36,15 +36,13 @@ inline constexpr RayKinds all_ray_kinds = 0xff;
 class Instances {
  public:
   /// Stores a shape for `add`. Returns its number; equal shapes get the same number.
-  std::uint32_t define(Shape<double> shape);
+  std::uint32_t define(Shape shape);
   /// Stores an existing definition. Returns the same number for the same definition.
-  std::uint32_t define(const std::shared_ptr<const ShapeDefinition<double>>& shared);
+  std::uint32_t define(const std::shared_ptr<const ShapeDefinition>& shared);
 
   /// `pose` maps the frame of the definition's shape to the world; it must be invertible.
   void add(std::uint32_t definition, const Affine<double>& pose);
-  void add(Shape<double> shape, const Affine<double>& pose = {}) {
-    add(define(std::move(shape)), pose);
-  }
+  void add(Shape shape, const Affine<double>& pose = {}) { add(define(std::move(shape)), pose); }
 
   /// Adds a half-space under a pose. A half-space has no definition and no box, so `at` must not be
   /// called for it.
@@ -138,10 +136,10 @@ class Instances {
 
   /// Returns an instance with a shape, prepared for casts. The result refers to this object, which
   /// must outlive the result. `loss` is the uncertainty of a ray's position, in the inner frame.
-  PreparedShape<double> at(std::size_t i, double loss = 0) const {
+  PreparedShape at(std::size_t i, double loss = 0) const {
     const InstancePlace& place = places_[i];
     const InstanceBody& body = bodies_[place.body];
-    const ShapeDefinition<double>& definition = *body.definition;
+    const ShapeDefinition& definition = *body.definition;
     const Mat3<double> map = to_inner(i);
     const Mat3<double>* const turn = body.is_turned ? &map : nullptr;
     const Vec3<double> origin(place.origin[0], place.origin[1], place.origin[2]);
@@ -151,8 +149,7 @@ class Instances {
       return {definition, TwoFoldVec3<double>(origin, rest->second.centre), turn,
               rest->second.loss + loss};
     }
-    return {definition,
-            ShapeDefinition<double>::plain_centre({map.transpose(), origin}, body.centre), turn,
+    return {definition, ShapeDefinition::plain_centre({map.transpose(), origin}, body.centre), turn,
             (body.is_turned ? definition.plain_loss() : 0) + loss};
   }
   /// Returns the place of an instance at rest for the filter. Writes `map`, which must outlive the
@@ -164,13 +161,13 @@ class Instances {
     const bool has_map = body.is_turned || !body.is_centred;
     if (has_map) map = to_inner(i);
     return {*body.definition,
-            body.is_plain && has_map ? ShapeDefinition<double>::rounded_plain_centre(
-                                           {map.transpose(), origin}, body.centre)
-                                     : origin,
+            body.is_plain && has_map
+                ? ShapeDefinition::rounded_plain_centre({map.transpose(), origin}, body.centre)
+                : origin,
             body.is_turned ? &map : nullptr};
   }
   /// Same as at(), for a ray returned by seen_by(): `loss` includes the rounding of seen_by().
-  PreparedShape<double> at_seen_by(std::size_t i, const Ray<double>& ray) const {
+  PreparedShape at_seen_by(std::size_t i, const Ray<double>& ray) const {
     const double loss = loss_of_seen_by(i, ray);
     return loss == 0 ? at(i) : at(i, loss * to_inner(i).norm());
   }
@@ -212,7 +209,7 @@ class Instances {
   bool has_boxes() const { return boxes_.size() == places_.size() && !are_boxes_stale_; }
 
   std::size_t definitions() const { return definitions_.size(); }
-  const ShapeDefinition<double>& definition(std::uint32_t number) const {
+  const ShapeDefinition& definition(std::uint32_t number) const {
     return *definitions_[number].shared;
   }
 
@@ -221,7 +218,7 @@ class Instances {
 
  private:
   struct Defined {
-    std::shared_ptr<const ShapeDefinition<double>> shared;
+    std::shared_ptr<const ShapeDefinition> shared;
     /// Indices of this definition's bodies, or no_body.
     std::array<std::uint32_t, 5> bodies;
   };
@@ -248,7 +245,7 @@ class Instances {
 
   std::size_t index_of_mesh(std::size_t i) const;
   Mat3<double> to_inner(std::size_t i) const;
-  std::uint32_t number_of(std::shared_ptr<const ShapeDefinition<double>> definition);
+  std::uint32_t number_of(std::shared_ptr<const ShapeDefinition> definition);
   std::uint32_t body_with(std::uint32_t definition, std::size_t which);
   /// Writes the instance's InstancePlace except for `body`, which `keep` finds. `keep` is not
   /// thread-safe.

@@ -22,7 +22,7 @@ struct OpenPair {
 template <class OnFound>
 class PairCaster {
  public:
-  PairCaster(const Instances& instances, const CastOptions<double>& options, const RaySpan& rays,
+  PairCaster(const Instances& instances, const CastOptions& options, const RaySpan& rays,
              QueryCounts& counts, OnFound on_found)
       : instances_(instances),
         options_(options),
@@ -60,7 +60,7 @@ class PairCaster {
     });
     for (std::size_t i = 0; i < pairs.size();) {
       const std::uint32_t instance = pairs[i].instance;
-      RayPacket<double> packet;
+      RayPacket packet;
       std::uint32_t ray_of[lanes];
       int used = 0;
       for (; i < pairs.size() && pairs[i].instance == instance && used < int{lanes}; ++i) {
@@ -69,13 +69,13 @@ class PairCaster {
         packet.set(used++, seen(pairs[i].ray, instance));
       }
       if (used == 0) continue;
-      const PreparedShape<double> shape = instances_.at(instance);
+      const PreparedShape shape = instances_.at(instance);
       if (used == 1 || !shape.definition().has_packets() || instances_.move()) {
         for (int lane = 0; lane < used; ++lane) cast_alone(ray_of[lane], instance);
         continue;
       }
       for (int lane = used; lane < int{lanes}; ++lane) packet.set(lane, packet.ray(0));
-      CastPacket<double> answers;
+      CastPacket answers;
       cast_packet(shape, packet, (LaneBits(1) << used) - 1, answers);
       for (int lane = 0; lane < used; ++lane) {
         const CastResult<double> result = answers.result(lane);
@@ -121,7 +121,7 @@ class PairCaster {
       pairs.place[i] = instances_.places() + instance;
       pairs.digits[i] = instances_.digits() ? instances_.digits() + instance : nullptr;
     }
-    CastPacket<double> answers;
+    CastPacket answers;
     const std::size_t used = queue.count;
     cast_four_avx2(body, pairs, (LaneBits(1) << used) - 1, answers);
     const LaneBits answered = answers.found() | answers.miss;
@@ -138,7 +138,7 @@ class PairCaster {
   }
 
   const Instances& instances_;
-  const CastOptions<double>& options_;
+  const CastOptions& options_;
   RaySpan rays_;
   QueryCounts& counts_;
   OnFound on_found_;

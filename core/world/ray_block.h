@@ -54,6 +54,6 @@ struct FourPairs {
 /// Same as cast_ray for the given lanes. A lane that cannot be decided is neither hit, inside nor
 /// miss. Requires AVX2 and FMA.
 void cast_four_avx2(const InstanceBody& body, const FourPairs& pairs, LaneBits lanes,
-                    CastPacket<double>& answers);
+                    CastPacket& answers);
 
 }  // namespace minkray

@@ -16,15 +16,15 @@ namespace {
 constexpr double most_visits_after_refit = 1.5;
 
 /// Closed forms and packets require the default options.
-bool are_default(const CastOptions<double>& options) {
-  const CastOptions<double> standard;
+bool are_default(const CastOptions& options) {
+  const CastOptions standard;
   return options.solver == standard.solver && options.eps_tol == standard.eps_tol &&
          options.max_iterations == standard.max_iterations && options.v0 == standard.v0;
 }
 
 }  // namespace
 
-World::World(Instances instances, const CastOptions<double>& options, BvhBuild build)
+World::World(Instances instances, const CastOptions& options, BvhBuild build)
     : instances_(std::move(instances)),
       build_(build),
       options_(options),

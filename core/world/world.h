@@ -20,7 +20,7 @@ struct SlabRay;
 
 /// Results of up to 64 consecutive rays, in packets of four.
 struct BlockHits {
-  std::array<CastPacket<double>, 16> casts;
+  std::array<CastPacket, 16> casts;
   std::array<std::uint32_t, 64> instance;
   std::uint64_t found;  ///< bits of rays that hit, or begin inside
 };
@@ -40,7 +40,7 @@ class HitReceiver {
 class World {
  public:
   World() = default;
-  explicit World(Instances instances, const CastOptions<double>& options = {},
+  explicit World(Instances instances, const CastOptions& options = {},
                  BvhBuild build = BvhBuild::quality);
 
   /// Returns the first instance that the ray hits with 0 <= t <= t_max; of several at the same t,
@@ -86,7 +86,7 @@ class World {
   /// Moves out the instances, to change them and make a new world.
   Instances release() && { return std::move(instances_); }
   const Bvh& bvh() const { return bvh_; }
-  const CastOptions<double>& options() const { return options_; }
+  const CastOptions& options() const { return options_; }
 
   /// Memory of instances and BVH, without the hulls' points, which are shared.
   std::size_t bytes() const { return bvh_.bytes() + mesh_boxes_.bytes() + instances_.bytes(); }
@@ -135,8 +135,8 @@ class World {
   Bvh mesh_boxes_;  ///< of meshes; indices are those in Instances::meshes()
   BvhBuild build_ = BvhBuild::quality;
   bool has_repeated_ = false;   ///< duplicates are left out of the BVH
-  double visits_as_built_ = 0;  ///< expected node visits per ray; 0: not computed yet
-  CastOptions<double> options_;
+  double visits_as_built_ = 0;  ///< expected per ray; 0: not known yet
+  CastOptions options_;
   bool is_default_ = true;  ///< the options allow packets and closed forms
   FormKind kind_of_all_ = FormKind::none;
 };

@@ -45,7 +45,7 @@ class BlockCaster {
       pairs.place[i] = instances_.places() + instance;
       pairs.digits[i] = instances_.digits() ? instances_.digits() + instance : nullptr;
     }
-    CastPacket<double>& casts = hits_.casts[from / 4];
+    CastPacket& casts = hits_.casts[from / 4];
     cast_four_avx2(instances_.body_of(some), pairs, lanes, casts);
     LaneBits found = casts.found();
     for (std::size_t i = 0; i < 4; ++i)

@@ -217,8 +217,8 @@ RenderOptions ImageArguments::render_options(const Scene& loaded, std::size_t pa
   return options;
 }
 
-CastOptions<double> cast_options(const std::string& solver, const std::string& option) {
-  CastOptions<double> options;
+CastOptions cast_options(const std::string& solver, const std::string& option) {
+  CastOptions options;
   std::string names;
   for (const SolverDescription& description : solver_descriptions) {
     options.solver = description.kind;

@@ -76,7 +76,7 @@ void add_output_option(const Verb& verb, std::vector<std::string>& outputs,
 void check_outputs(const std::vector<std::string>& outputs);
 
 /// Returns options for casts with the named solver. Throws WrongUsage that lists the names.
-CastOptions<double> cast_options(const std::string& solver, const std::string& option = "--solver");
+CastOptions cast_options(const std::string& solver, const std::string& option = "--solver");
 
 /// Encodes and writes to each of the paths: `floats` for formats that store them, `picture` for the
 /// others. Ends the process early if it was interrupted.

@@ -13,10 +13,10 @@ namespace minkray {
 
 /// Throws BadInput with all mistakes of the file. Adds the files that it names to `files` if not
 /// null.
-inline Shape<double> shape_in(const std::string& file, CommandFiles* files = nullptr) {
+inline Shape shape_in(const std::string& file, CommandFiles* files = nullptr) {
   Mistakes mistakes(file);
   MeshFiles meshes(std::filesystem::path(file).parent_path());
-  std::optional<Shape<double>> shape;
+  std::optional<Shape> shape;
   if (const auto text = read_text_file(file, mistakes))
     if (const auto json = parse_json(*text, mistakes))
       shape = read_shape(*json, JsonPath(), mistakes, meshes);

@@ -13,7 +13,7 @@ namespace minkray {
 namespace {
 
 /// The triangle in the world: its corners round once.
-Shape<double> part_in_world(const PosedMesh& posed, std::uint32_t part) {
+Shape part_in_world(const PosedMesh& posed, std::uint32_t part) {
   std::array<Vec3<double>, 3> corners;
   for (std::size_t k = 0; k < 3; ++k) corners[k] = posed.pose(posed.mesh->corner(part, k));
   return triangle_of(corners[0], corners[1], corners[2]);
@@ -60,7 +60,7 @@ std::vector<std::uint32_t> parts_near(const PosedMesh& posed, const Ray<double>&
 
 CertificateVerdict verdict_of_part(const PosedMesh& posed, std::uint32_t part,
                                    const Ray<double>& ray, const Claim& claim, Certificate* found) {
-  const Shape<double> triangle = part_in_world(posed, part);
+  const Shape triangle = part_in_world(posed, part);
   const SupportFunction support = supports_of(triangle);
   const Certificate certificate = certify(support, ray, claim);
   if (found) *found = certificate;

@@ -36,8 +36,7 @@ bool may_pass(const Bounds<double>& box, const Ray<double>& ray) {
   return !(enter > leave);
 }
 
-std::string query_line(const Object& object, const Shape<double>& in_world,
-                       const Ray<double>& ray) {
+std::string query_line(const Object& object, const Shape& in_world, const Ray<double>& ray) {
   Json json;
   json["name"] = object.name;
   json["query"] = "ray";
@@ -72,8 +71,8 @@ RayAudit::RayAudit(const Scene& scene, const World& world) : scene_(scene), worl
       targets_.push_back({object.shape, padded(posed.bounds()), {}, posed});
       continue;
     }
-    const Shape<double> in_world = Transform<double>{object.shape, object.pose};
-    targets_.push_back({in_world, padded(bounds_of<double>(in_world))});
+    const Shape in_world = Transform{object.shape, object.pose};
+    targets_.push_back({in_world, padded(bounds_of(in_world))});
   }
 }
 

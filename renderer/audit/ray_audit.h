@@ -42,7 +42,7 @@ class RayAudit final : public RayObserver {
 
  private:
   struct Target {
-    Shape<double> shape;  ///< in the world's frame
+    Shape shape;  ///< in the world's frame
     Bounds<double> bounds;
     std::optional<HalfSpaceBody<double>> half_space =
         {};  ///< if there is one, in the place of both

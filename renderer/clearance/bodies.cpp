@@ -14,7 +14,7 @@
 namespace minkray {
 namespace {
 
-const Shape<double> nothing = Point<double>();
+const Shape nothing = Point();
 
 bool is_rotation(const Mat3<double>& linear) {
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
@@ -45,7 +45,7 @@ ClearanceBody body_of(const std::string& name, const std::string& link, int link
 
 /// The shape under a map, which may scale: it becomes part of the shape.
 ClearanceBody body_of(const std::string& name, const std::string& link, int link_index,
-                      const Shape<double>& shape, const Affine<double>& map) {
+                      const Shape& shape, const Affine<double>& map) {
   ClearanceBody body{name, link, link_index, ContactShape(shape, map)};
   body.middle = placed_middle(body.shape, {});
   return body;
@@ -54,14 +54,14 @@ ClearanceBody body_of(const std::string& name, const std::string& link, int link
 /// The hulls of meshes, each made once.
 class Hulls {
  public:
-  const Shape<double>& of(const std::shared_ptr<const TriangleMesh>& mesh) {
+  const Shape& of(const std::shared_ptr<const TriangleMesh>& mesh) {
     const auto [at, is_new] = known_.try_emplace(mesh.get(), nothing);
     if (is_new) at->second = hull_of(*mesh);
     return at->second;
   }
 
  private:
-  std::map<const TriangleMesh*, Shape<double>> known_;
+  std::map<const TriangleMesh*, Shape> known_;
 };
 
 }  // namespace
@@ -132,7 +132,7 @@ std::vector<ClearanceBody> bodies_of(const Model& model, GeometryChoice geometry
       continue;
     }
     const bool is_hull = geom.mesh && geom.touches == Touch::as_hull;
-    const Shape<double> shape = is_hull ? hulls.of(geom.mesh) : geom.shape.value_or(nothing);
+    const Shape shape = is_hull ? hulls.of(geom.mesh) : geom.shape.value_or(nothing);
     bodies.push_back(body_of(name, link, geom.link, shape, geom.pose));
     if (geom.touches_as_half_space())
       bodies.back().plane = PlacedPlane::of(Vec3<double>::UnitZ(), 0, geom.pose);

@@ -27,7 +27,7 @@ Scene swept_scene(Model model, const ImportOptions& import, const JointPath& pat
       continue;
     }
     // The region swept by a mesh is within that swept by its hull.
-    const Shape<double> shape = geom.mesh ? hull_of(*geom.mesh) : *geom.shape;
+    const Shape shape = geom.mesh ? hull_of(*geom.mesh) : *geom.shape;
     const ContactShape ball(shape, geom.pose);
     const double reach = ball.middle().norm() + ball.ball_radius();
     bool stands_there = false;

@@ -35,7 +35,6 @@ constexpr std::size_t most_bytes_a_line = std::size_t{64} << 20;
 
 struct CastVerbOptions {
   std::string file;
-  std::string precision = "double";
   std::string solver = "auto";
   std::string subalgorithm = "projection";
   double tolerance = AnswerOptions{}.tolerance;
@@ -166,7 +165,7 @@ void answer_line(const Line& line, const std::string& place, MeshFiles& meshes,
     batch.err += whose + ": not certified: " + std::string(result.verdict->complaint) + "\n";
   }
   if (!check) return;
-  for (const std::string& complaint : complaints(*query, result.facts, options.precision)) {
+  for (const std::string& complaint : complaints(*query, result.facts)) {
     batch.has_wrong = true;
     batch.err += whose + ": " + complaint + "\n";
   }
@@ -174,13 +173,9 @@ void answer_line(const Line& line, const std::string& place, MeshFiles& meshes,
 
 ExitCode cast(const CastVerbOptions& options) {
   check_tolerance(options.tolerance);
-  const AnswerOptions answer_options{
-      options.precision == "float" ? Precision::in_float : Precision::in_double,
-      solver_named(options.solver),
-      subalgorithm_named(options.subalgorithm),
-      options.tolerance,
-      options.trace,
-      options.certify};
+  const AnswerOptions answer_options{solver_named(options.solver),
+                                     subalgorithm_named(options.subalgorithm), options.tolerance,
+                                     options.trace, options.certify};
 
   std::ifstream file;
   if (options.file != "-") {
@@ -259,12 +254,7 @@ ExitCode cast(const CastVerbOptions& options) {
 void add_cast(Parser& parser, ExitCode& exit_code) {
   const Verb verb = parser.add_verb("cast");
   const auto options = std::make_shared<CastVerbOptions>();
-  verb.add_option("file", options->file, "File of queries, one JSON object per line; - for stdin")
-      .required()
-      .reads_file();
-  verb.add_option("--precision", options->precision, "Precision of casts")
-      .one_of({"float", "double"})
-      .show_default();
+  verb.add_option("file", options->file, "A file of queries, - for stdin").required().reads_file();
   add_solver_option(verb, options->solver);
   verb.add_option("--subalgorithm", options->subalgorithm, "Distance subalgorithm of GJK")
       .one_of(subalgorithm_names())

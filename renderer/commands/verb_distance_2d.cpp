@@ -29,7 +29,7 @@ void distance_2d(const Distance2DVerbOptions& options) {
   check_writable(options.out);
   Mistakes mistakes(options.file);
   MeshFiles meshes(std::filesystem::path(options.file).parent_path());
-  std::optional<Shape<double>> a, b;
+  std::optional<Shape> a, b;
   if (const auto text = read_text_file(options.file, mistakes))
     if (const auto json = parse_json(*text, mistakes)) {
       ObjectReader object(*json, JsonPath(), mistakes);

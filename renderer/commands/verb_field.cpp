@@ -55,8 +55,8 @@ void field(FieldVerbOptions& options) {
   const Scene& scene = imported.scene;
   options.files->read(imported.files);
   if (imported.model && !options.quiet) warn_of_limits(*imported.model, options.import);
-  const Shape<double> probe = options.probe.empty() ? Shape<double>(Point<double>())
-                                                    : shape_in(options.probe, options.files);
+  const Shape probe =
+      options.probe.empty() ? Shape(Point()) : shape_in(options.probe, options.files);
 
   Bounds<double> bounds;
   for (const Object& object : scene.objects)

@@ -30,7 +30,7 @@ bool is_there(const RenderJob& job, const std::vector<std::string>& outputs) {
 ExitCode run(RenderArguments& options) {
   Ranks ranks;
   options.choose_output(ranks);
-  const CastOptions<double> cast = cast_options(options.image.solver);
+  const CastOptions cast = cast_options(options.image.solver);
   RenderJob job = job_of(options, ranks);
   const FrameRange frames = frames_of(options, ranks);
 

@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 
-#include "core/derived/convert.h"
 #include "renderer/arguments/choices.h"
 #include "renderer/arguments/image_arguments.h"
 #include "renderer/arguments/import_arguments.h"
@@ -29,7 +28,6 @@ struct TraceVerbOptions {
   std::vector<int> pixel;
   std::string object;
   std::optional<std::string> svg;
-  std::string precision = "double";
   std::string solver = "auto";
   std::string resolution;   ///< empty: the scene's
   std::string camera_file;  ///< empty: the scene's lens
@@ -41,19 +39,18 @@ constexpr std::size_t most_traced = 1000000;
 
 /// Chooses the object to show: the named one, otherwise the first that the ray meets, otherwise the
 /// one whose miss took most iterations. Without objects in the scene there is none.
-template <class T>
-std::size_t choose(const std::vector<PreparedShape<T>>& shapes, const Scene& scene,
-                   const std::vector<std::size_t>& objects, const Ray<T>& ray,
-                   const CastOptions<T>& cast, const std::string& name) {
+std::size_t choose(const std::vector<PreparedShape>& shapes, const Scene& scene,
+                   const std::vector<std::size_t>& objects, const Ray<double>& ray,
+                   const CastOptions& cast, const std::string& name) {
   std::size_t nearest = shapes.size(), hardest = shapes.size();
-  T t = std::numeric_limits<T>::infinity();
+  double t = std::numeric_limits<double>::infinity();
   int iterations = -1;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     if (!name.empty()) {
       if (instance_object(scene, objects[i]).name == name) return i;
       continue;
     }
-    const CastResult<T> result = cast_ray(shapes[i], ray, cast);
+    const CastResult<double> result = cast_ray(shapes[i], ray, cast);
     if (result.found() && result.t() < t) {
       nearest = i;
       t = result.t();
@@ -68,7 +65,6 @@ std::size_t choose(const std::vector<PreparedShape<T>>& shapes, const Scene& sce
   return nearest < shapes.size() ? nearest : hardest;
 }
 
-template <class T>
 void trace(const TraceVerbOptions& options) {
   if (options.svg) check_ending(*options.svg, ".svg", "--svg");
   ImageArguments picture;
@@ -85,10 +81,10 @@ void trace(const TraceVerbOptions& options) {
                      "," + std::to_string(size.height - 1));
   if (options.svg) check_writable(*options.svg);
   const Ray<double> through = Camera(scene.camera, size).ray(x + 0.5, y + 0.5);
-  const Ray<T> ray{through.origin.template cast<T>(), through.direction.template cast<T>()};
-  CastOptions<T> cast;
+  const Ray<double> ray{through.origin, through.direction};
+  CastOptions cast;
   cast.solver = solver_named(options.solver);
-  std::vector<PreparedShape<T>> shapes;
+  std::vector<PreparedShape> shapes;
   std::vector<std::size_t> objects;  // number of each shape's object
   const std::size_t count = instance_count(scene);
   if (count > most_traced)
@@ -99,11 +95,11 @@ void trace(const TraceVerbOptions& options) {
     const Object object = instance_object(scene, i);
     if (!object.has_shape()) continue;  // has a closed form, and no iterations to show
     objects.push_back(i);
-    shapes.emplace_back(convert<T>(object.shape), object.pose.template cast<T>());
+    shapes.emplace_back(object.shape, object.pose);
   }
   const std::size_t chosen = choose(shapes, scene, objects, ray, cast, options.object);
   if (chosen == shapes.size()) throw BadInput(options.scene + ": has no objects");
-  const CastTrace<T> result = trace_ray(shapes[chosen], ray, cast);
+  const CastTrace result = trace_ray(shapes[chosen], ray, cast);
 
   if (options.svg) {
     const std::string svg = trace_svg(result, shapes[chosen]);
@@ -156,18 +152,10 @@ void add_trace(Parser& parser, ExitCode&) {
   verb.add_option("--object", options->object,
                   "Name of the object to cast at (default: the object that the ray hits)")
       .takes("NAME");
-  verb.add_option("--precision", options->precision, "Floating-point precision of the cast")
-      .one_of({"float", "double"})
-      .show_default();
   add_solver_option(verb, options->solver);
   verb.add_flag("--json", options->json, "Print JSON");
-  verb.add_option("--svg", options->svg, "SVG file to write: a drawing of the cast").writes_file();
-  verb.on_call([options] {
-    if (options->precision == "float")
-      trace<float>(*options);
-    else
-      trace<double>(*options);
-  });
+  verb.add_option("--svg", options->svg, "Also draw the cast into this file (SVG)").writes_file();
+  verb.on_call([options] { trace(*options); });
 }
 
 }  // namespace minkray

@@ -121,9 +121,8 @@ void find_incomparable(const Scene& scene, Mistakes& mistakes) {
   for (std::size_t i = 0; i < instance_count(scene); ++i) {
     const Object object = instance_object(scene, i);
     if (!object.has_shape()) continue;
-    const Shape<double> placed =
-        Transform<double>{Nested<double>(object.shape), AffineMap<double>(object.pose)};
-    const Bounds<double> bounds = bounds_of<double>(placed);
+    const Shape placed = Transform{Nested(object.shape), AffineMap(object.pose)};
+    const Bounds<double> bounds = bounds_of(placed);
     const double reach =
         std::max(bounds.lower.cwiseAbs().maxCoeff(), bounds.upper.cwiseAbs().maxCoeff());
     if (reach <= furthest) continue;
@@ -176,8 +175,7 @@ SceneComparison compare_scene(const Scene& scene, const CompareSceneOptions& opt
           look_at(check, *camera, difference, picture_mutex,
                   [&](const Ray<float>& ray) { return check.judge(ray); });
       } else {
-        const Shape<double> placed =
-            Transform<double>{Nested<double>(object.shape), AffineMap<double>(object.pose)};
+        const Shape placed = Transform{Nested(object.shape), AffineMap(object.pose)};
         const SandwichedShape shape(placed, options.object.sandwich);
         result.shape =
             std::visit([](const auto& kind) { return std::string(kind.name); }, object.shape.kind);

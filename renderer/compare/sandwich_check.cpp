@@ -99,7 +99,7 @@ int CompareReport::total_violations() const {
   return std::accumulate(violations.begin(), violations.end(), 0);
 }
 
-SandwichedShape::SandwichedShape(const Shape<double>& shape, const SandwichOptions& options)
+SandwichedShape::SandwichedShape(const Shape& shape, const SandwichOptions& options)
     : prepared_(shape),
       sandwich_(sandwich_of(shape, options)),
       inner_(sandwich_.inner),
@@ -123,7 +123,7 @@ RayInFrame SandwichedShape::to_frame(const Ray<double>& ray) const {
   return {{(origin + start * r).cast<float>(), r.cast<float>()}, start / length, 1 / length};
 }
 
-Verdict SandwichedShape::judge(const Ray<float>& ray, const CastOptions<double>& options) const {
+Verdict SandwichedShape::judge(const Ray<float>& ray, const CastOptions& options) const {
   Verdict verdict;
   verdict.result = cast_ray(prepared_, to_shape(ray), options);
   const auto outer = outer_.cast(ray), inner = inner_.cast(ray);
@@ -181,7 +181,7 @@ CompareReport SandwichedShape::compare(const CompareOptions& options) const {
   return report;
 }
 
-CompareReport compare_with_embree(const Shape<double>& shape, const CompareOptions& options) {
+CompareReport compare_with_embree(const Shape& shape, const CompareOptions& options) {
   return SandwichedShape(shape, options.sandwich).compare(options);
 }
 

@@ -20,7 +20,7 @@ struct CompareOptions {
   int rays = 100000;
   std::uint64_t seed = 1;
   SandwichOptions sandwich;
-  CastOptions<double> cast;
+  CastOptions cast;
 };
 
 enum class Violation : unsigned char {
@@ -88,10 +88,10 @@ struct RayInFrame {
 class SandwichedShape {
  public:
   /// Throws std::runtime_error if Qhull or Embree fails.
-  explicit SandwichedShape(const Shape<double>& shape, const SandwichOptions& options = {});
+  explicit SandwichedShape(const Shape& shape, const SandwichOptions& options = {});
 
   /// Casts a ray of the frame at meshes and shape.
-  Verdict judge(const Ray<float>& ray, const CastOptions<double>& options = {}) const;
+  Verdict judge(const Ray<float>& ray, const CastOptions& options = {}) const;
 
   /// Gives the ray to the solver, in the shape's own frame; t stays.
   Ray<double> to_shape(const Ray<float>& ray) const;
@@ -106,12 +106,12 @@ class SandwichedShape {
   Bounds<double> bounds() const { return prepared_.definition().bounds_of(Affine<double>{}); }
 
  private:
-  PreparedShape<double> prepared_;
+  PreparedShape prepared_;
   Sandwich sandwich_;
   EmbreeMesh inner_, outer_;
 };
 
 /// Both in one.
-CompareReport compare_with_embree(const Shape<double>& shape, const CompareOptions& options = {});
+CompareReport compare_with_embree(const Shape& shape, const CompareOptions& options = {});
 
 }  // namespace minkray

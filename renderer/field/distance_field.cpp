@@ -46,13 +46,13 @@ FieldPlane plane_facing(const Vec3<double>& middle, const Vec3<double>& normal, 
   return plane;
 }
 
-DistanceField measure_field(const Scene& scene, const Shape<double>& probe, const FieldPlane& plane,
+DistanceField measure_field(const Scene& scene, const Shape& probe, const FieldPlane& plane,
                             const FieldOptions& options) {
   if (!scene.particles.empty()) throw BadInput("distances from particles are not measured");
   std::vector<Body> bodies;
   for (const Object& object : scene.objects) {
     if (object.mesh) {
-      bodies.push_back({ContactShape(Shape<double>(Point<double>())),
+      bodies.push_back({ContactShape(Shape(Point())),
                         {Mat3<double>::Identity(), object.pose.translation},
                         {},
                         mapped(*object.mesh, {object.pose.linear, Vec3<double>::Zero()})});

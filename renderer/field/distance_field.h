@@ -49,7 +49,7 @@ struct FieldOptions {
 };
 
 /// The probe's origin goes over the plane. Throws BadInput for a scene with particles.
-DistanceField measure_field(const Scene& scene, const Shape<double>& probe, const FieldPlane& plane,
+DistanceField measure_field(const Scene& scene, const Shape& probe, const FieldPlane& plane,
                             const FieldOptions& options);
 
 }  // namespace minkray

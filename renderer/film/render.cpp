@@ -227,7 +227,7 @@ class Rendered {
 
 }  // namespace
 
-World make_world(const Scene& scene, const CastOptions<double>& options, BvhBuild build) {
+World make_world(const Scene& scene, const CastOptions& options, BvhBuild build) {
   Instances instances;
   instances.reserve(instance_count(scene));
   for (const Object& object : scene.objects) add_object(instances, object);

@@ -11,7 +11,7 @@
 namespace minkray {
 
 /// The scene's objects, then its particles, in order.
-World make_world(const Scene& scene, const CastOptions<double>& options = {},
+World make_world(const Scene& scene, const CastOptions& options = {},
                  BvhBuild build = BvhBuild::quality);
 
 /// Moves a world's instances to the current poses of its scene.

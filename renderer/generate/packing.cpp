@@ -22,12 +22,10 @@ Affine<double> pose_of(const PackedPose& pose) {
 class Packing {
  public:
   explicit Packing(const Vec3<double>& radii)
-      : shape_(Ellipsoid<double>{radii}),
-        least_radius_(radii.minCoeff()),
-        cell_(2 * radii.maxCoeff()) {}
+      : shape_(Ellipsoid{radii}), least_radius_(radii.minCoeff()), cell_(2 * radii.maxCoeff()) {}
 
   bool has_room_for(const PackedPose& pose) const {
-    const CentredShape<double> shape = centred(shape_, pose_of(pose));
+    const CentredShape shape = centred(shape_, pose_of(pose));
     const auto cell = cell_of(pose.position);
     for (std::int64_t x = -1; x <= 1; ++x)
       for (std::int64_t y = -1; y <= 1; ++y)
@@ -68,7 +66,7 @@ class Packing {
     return key;
   }
 
-  bool meets(const PackedPose& a, const CentredShape<double>& shape, const PackedPose& b) const {
+  bool meets(const PackedPose& a, const CentredShape& shape, const PackedPose& b) const {
     const double distance = (a.position - b.position).norm();
     if (distance >= cell_) return false;
     if (distance <= 2 * least_radius_) return true;
@@ -76,7 +74,7 @@ class Packing {
     return distance_between(shape, centred(shape_, pose_of(b))).status != DistanceStatus::separated;
   }
 
-  Shape<double> shape_;
+  Shape shape_;
   double least_radius_, cell_;
   std::unordered_map<std::uint64_t, std::size_t> first_;
   std::vector<std::size_t> next_;

@@ -40,8 +40,7 @@ void find_files(const Json& json, MeshSplit split, std::vector<ShownFile>& files
     for (const Json& element : json) find_files(element, MeshSplit::none, files);
   if (!json.is_object()) return;
   const Json *type = json.find("type"), *file = json.find("file");
-  if (type && type->is_string() && type->text() == Hull<double>::name && file &&
-      file->is_string()) {
+  if (type && type->is_string() && type->text() == Hull::name && file && file->is_string()) {
     add({file->text(), MeshChoice::hull, split});
   }
   if (const Json* mesh = json.find("mesh"); mesh && mesh->is_object()) {

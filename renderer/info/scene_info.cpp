@@ -68,7 +68,7 @@ std::string cell(std::string_view text) {
 /// only.
 template <class Visit>
 void for_each_listed_shape(Visit&& visit) {
-  for_each_alternative(std::type_identity<ShapeVariant<double>>(), visit);
+  for_each_alternative(std::type_identity<ShapeVariant>(), visit);
   visit.template operator()<HalfSpaceDescription>();
 }
 

@@ -53,9 +53,9 @@ Json answer_json(const DistanceResult<double, Dim>& result, Json steps) {
           {"steps", std::move(steps)}};
 }
 
-Json distance_json(const PreparedPair<double>& pair) {
+Json distance_json(const PreparedPair& pair) {
   Json steps = Json::array();
-  const auto result = distance_between<double>(
+  const auto result = distance_between(
       pair.a(), pair.b(), {}, SubalgorithmKind::projection,
       [&](const DistanceIteration<double, 3>& step) { steps.push_back(step_json<3>(step)); });
   Json json = answer_json(result, std::move(steps));
@@ -66,15 +66,15 @@ Json distance_json(const PreparedPair<double>& pair) {
   return json;
 }
 
-Json impact_json(const PreparedPair<double>& pair) {
+Json impact_json(const PreparedPair& pair) {
   const Vec3<double> apart = pair.b().centre - pair.a().centre;
   const Ray<double> ray{apart, -apart, 1.0};
-  return replay_json(trace_ray(pair.obstacle(), ray, CastOptions<double>()));
+  return replay_json(trace_ray(pair.obstacle(), ray, CastOptions()));
 }
 
-Json plane_json(const PreparedPair<double>& pair) {
+Json plane_json(const PreparedPair& pair) {
   Json steps = Json::array();
-  const auto result = distance_in_plane<double>(
+  const auto result = distance_in_plane(
       pair.a(), pair.b(), {}, SubalgorithmKind::projection,
       [&](const DistanceIteration<double, 2>& step) { steps.push_back(step_json<2>(step)); });
   Json json = answer_json(result, std::move(steps));
@@ -91,7 +91,7 @@ Json plane_json(const PreparedPair<double>& pair) {
   return json;
 }
 
-CentredShape<double> centred_instance(const Scene& scene, std::size_t i) {
+CentredShape centred_instance(const Scene& scene, std::size_t i) {
   const Object object = instance_object(scene, i);
   return centred(object.shape, object.pose);
 }
@@ -100,7 +100,7 @@ CentredShape<double> centred_instance(const Scene& scene, std::size_t i) {
 
 std::vector<ObjectPair> nearest_pairs(const Scene& scene, std::size_t most) {
   std::vector<std::size_t> solid;
-  std::vector<CentredShape<double>> shapes;
+  std::vector<CentredShape> shapes;
   for (std::size_t i = 0; i < std::min(scene.objects.size(), most_objects_paired); ++i) {
     if (!scene.objects[i].has_shape()) continue;
     solid.push_back(i);
@@ -125,9 +125,8 @@ std::vector<ObjectPair> nearest_pairs(const Scene& scene, std::size_t most) {
 }
 
 Json pair_json(const Scene& scene, const ObjectPair& pair) {
-  const PreparedPair<double> prepared(centred_instance(scene, pair.a),
-                                      centred_instance(scene, pair.b));
-  const PreparedShape<double>& obstacle = prepared.obstacle();
+  const PreparedPair prepared(centred_instance(scene, pair.a), centred_instance(scene, pair.b));
+  const PreparedShape& obstacle = prepared.obstacle();
   return {{"a", pair.a},
           {"b", pair.b},
           {"mesh", mesh_json(obstacle.inner_shape(), obstacle.inner_ball(), fine_mesh)},

@@ -14,7 +14,7 @@ Json in_float(const Vec3<double>& point) {
 
 /// The vertex by the number of the step that found it, which saves its digits; by itself if none
 /// did.
-Json vertex_json(const std::vector<TracedIteration<double>>& steps, std::size_t k,
+Json vertex_json(const std::vector<TracedIteration>& steps, std::size_t k,
                  const Vec3<double>& vertex) {
   for (std::size_t i = k + 1; i-- > 0;)
     if (steps[i].p == vertex) return i;
@@ -23,7 +23,7 @@ Json vertex_json(const std::vector<TracedIteration<double>>& steps, std::size_t 
 
 }  // namespace
 
-Json replay_json(const CastTrace<double>& trace) {
+Json replay_json(const CastTrace& trace) {
   const CastResult<double>& result = trace.result;
   Json json{{"status", name_of(result.status)}, {"path", name_of(result.path)}};
   if (result.found()) {
@@ -43,7 +43,7 @@ Json replay_json(const CastTrace<double>& trace) {
       {number_json(ray.t_base), number_json(ray.t_shift), number_json(ray.t_per_length)});
   Json steps = Json::array();
   for (std::size_t k = 0; k < trace.iterations.size(); ++k) {
-    const TracedIteration<double>& step = trace.iterations[k];
+    const TracedIteration& step = trace.iterations[k];
     Json simplex = Json::array();
     for (const Vec3<double>& vertex : step.simplex)
       simplex.push_back(vertex_json(trace.iterations, k, vertex));

@@ -11,6 +11,6 @@ namespace minkray {
 /// {"status", "path", "t", "t_lo", "t_hi", "normal", "iterations", "supports", "radius", "s", "r",
 /// "lambda": [least, most], "t_of": [base, shift, per length], "steps"}. A step is [lambda, case,
 /// lambda_clip, lower, upper, v, p, w, simplex]: lengths with all their digits, vectors in float.
-Json replay_json(const CastTrace<double>& trace);
+Json replay_json(const CastTrace& trace);
 
 }  // namespace minkray

@@ -13,7 +13,7 @@ std::string ReplayLines::ray(const SceneCasts& casts, std::size_t solver, std::s
   const std::uint32_t definition = casts.world().instances().definition_of(instance);
   auto known = shape_of_definition_.find(definition);
   if (known == shape_of_definition_.end()) {
-    const PreparedShape<double> shape = casts.shape(instance);
+    const PreparedShape shape = casts.shape(instance);
     const Json mesh = mesh_json(shape.inner_shape(), shape.inner_ball(), directions_);
     const auto [at, is_new] = shape_of_mesh_.try_emplace(mesh.dump(), shape_of_mesh_.size());
     if (is_new) {

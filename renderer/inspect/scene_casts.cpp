@@ -5,7 +5,7 @@
 
 namespace minkray {
 
-SceneCasts::SceneCasts(const Scene& scene, const CastOptions<double>& options)
+SceneCasts::SceneCasts(const Scene& scene, const CastOptions& options)
     : world_(make_world(scene, options)) {}
 
 SceneAnswer SceneCasts::answer(const Ray<double>& ray) const {

@@ -19,7 +19,7 @@ struct SceneAnswer {
 
 class SceneCasts {
  public:
-  SceneCasts(const Scene& scene, const CastOptions<double>& options);
+  SceneCasts(const Scene& scene, const CastOptions& options);
 
   SceneAnswer answer(const Ray<double>& ray) const;
 
@@ -30,10 +30,8 @@ class SceneCasts {
                                    std::size_t most_looked_at) const;
 
   /// Refers to this.
-  PreparedShape<double> shape(std::size_t instance) const {
-    return world_.instances().at(instance);
-  }
-  CastTrace<double> trace(std::size_t instance, const Ray<double>& ray) const {
+  PreparedShape shape(std::size_t instance) const { return world_.instances().at(instance); }
+  CastTrace trace(std::size_t instance, const Ray<double>& ray) const {
     return trace_ray(shape(instance), ray, world_.options());
   }
 

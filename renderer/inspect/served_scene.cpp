@@ -100,7 +100,7 @@ struct ServedScene::Asked {
 };
 
 const std::vector<InspectedSolver>& ServedScene::solvers_for(const Asked& asked) {
-  CastOptions<double> options;
+  CastOptions options;
   const std::string* const named = asked.find("solver");
   const std::string solver = named ? *named : solvers_.front().name;
   const double tolerance = asked.number_within("tolerance", options.eps_tol, 0, 1);
@@ -111,7 +111,7 @@ const std::vector<InspectedSolver>& ServedScene::solvers_for(const Asked& asked)
   const auto make = [&](const std::string& name) {
     for (const SolverDescription& description : solver_descriptions) {
       if (description.name != name) continue;
-      CastOptions<double> of_solver;
+      CastOptions of_solver;
       of_solver.solver = description.kind;
       of_solver.eps_tol = tolerance;
       made.push_back({name, SceneCasts(scene_, of_solver)});

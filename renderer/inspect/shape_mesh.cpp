@@ -27,7 +27,7 @@ Json json_of(const Mesh& mesh, double scale, const Place& place) {
 
 }  // namespace
 
-Json mesh_json(const Shape<double>& shape, const Ball<double>& ball, int directions) {
+Json mesh_json(const Shape& shape, const Ball<double>& ball, int directions) {
   SandwichOptions options;
   options.directions = directions;
   try {

@@ -15,6 +15,6 @@ inline constexpr int fine_mesh = 160, coarse_mesh = 60;
 /// {"rank", "scale", "inner": {"v": [x, y, z, ...], "t": [corners, ...]}, "outer"}: coordinates
 /// from the ball's centre, as whole numbers to be multiplied by the scale. Shapes that Qhull fails
 /// at have no meshes; shapes of rank 1 and 0 have no inner one.
-Json mesh_json(const Shape<double>& shape, const Ball<double>& ball, int directions);
+Json mesh_json(const Shape& shape, const Ball<double>& ball, int directions);
 
 }  // namespace minkray

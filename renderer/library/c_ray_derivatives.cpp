@@ -67,7 +67,7 @@ class Bend {
   }
 
  private:
-  PreparedShape<double> shape_;
+  PreparedShape shape_;
   const Ray<double>& ray_;
   Vec3<double> aside_;
   double t_, size_;

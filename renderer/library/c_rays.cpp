@@ -82,7 +82,7 @@ void find_occluded(const HeldScene& scene, const RaySource& rays, std::uint8_t* 
 
 /// Casts at one shape, one way or the other.
 template <class Cast>
-void cast_at_one(const PreparedShape<double>& shape, std::uint32_t object, const RaySource& rays,
+void cast_at_one(const PreparedShape& shape, std::uint32_t object, const RaySource& rays,
                  minkray_hit* hits, const minkray_options* options, Cast&& cast) {
   work_on_rays(rays.size(), options, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
@@ -183,10 +183,9 @@ int minkray_scene_exit(minkray_scene scene, uint32_t object, const minkray_ray* 
     if (instances.is_half_space(object))
       wrong_use("object: must not be a half-space, since rays never leave it");
     if (instances.is_mesh(object)) wrong_use("object: must be convex (got a mesh)");
-    cast_at_one(instances.at(object), object, RaySource(rays, count), hits, options,
-                [](const PreparedShape<double>& shape, const Ray<double>& ray) {
-                  return cast_exit(shape, ray);
-                });
+    cast_at_one(
+        instances.at(object), object, RaySource(rays, count), hits, options,
+        [](const PreparedShape& shape, const Ray<double>& ray) { return cast_exit(shape, ray); });
     throw_if_lied(held->customs());
   });
 }
@@ -220,11 +219,10 @@ int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose, const mink
       plain_hit(ray, hit, hit.cast.status == Status::exhausted, *hits);
       return;
     }
-    const PreparedShape<double> prepared(held.definition(), pose_of(pose, "pose"));
-    cast_at_one(prepared, 0, RaySource(rays, count), hits, options,
-                [](const PreparedShape<double>& one, const Ray<double>& ray) {
-                  return cast_ray(one, ray);
-                });
+    const PreparedShape prepared(held.definition(), pose_of(pose, "pose"));
+    cast_at_one(
+        prepared, 0, RaySource(rays, count), hits, options,
+        [](const PreparedShape& one, const Ray<double>& ray) { return cast_ray(one, ray); });
     throw_if_lied(held.customs());
   });
 }

@@ -271,7 +271,7 @@ int minkray_scene_nearest(minkray_scene scene, const double (*points)[3], size_t
       vector_of(points[i], "points", ("[" + std::to_string(i) + "]").c_str());
     const NearQuery query = query_of(options, infinite);
     const SceneBodies& bodies = held->bodies();
-    const ContactShape point{Shape<double>(Point<double>())};
+    const ContactShape point{Shape(Point())};
     for_all(*held, count, how, [&](size_t i) {
       ContactBody to{point, {}, all_categories, query.mask};
       to.pose.translation = {points[i][0], points[i][1], points[i][2]};

@@ -16,7 +16,7 @@
 namespace minkray {
 namespace {
 
-minkray_shape hold(Shape<double> shape) {
+minkray_shape hold(Shape shape) {
   check_nesting(shape);
   return {held_shapes().add(std::make_unique<HeldShape>(std::move(shape)))};
 }
@@ -77,7 +77,7 @@ int minkray_shape_custom(const minkray_support* support, minkray_shape* shape) {
   return call("minkray_shape_custom", [&] {
     require(support, "support");
     require(shape, "shape");
-    *shape = hold(Custom<double>{std::make_shared<const CustomSupport>(*support)});
+    *shape = hold(Custom{std::make_shared<const CustomSupport>(*support)});
   });
 }
 
@@ -86,7 +86,7 @@ int minkray_shape_custom_gathered(const minkray_support* support, size_t gathere
   return call("minkray_shape_custom_gathered", [&] {
     require(support, "support");
     require(shape, "shape");
-    *shape = hold(Custom<double>{std::make_shared<const CustomSupport>(*support, gathered)});
+    *shape = hold(Custom{std::make_shared<const CustomSupport>(*support, gathered)});
   });
 }
 
@@ -96,7 +96,7 @@ int minkray_shape_custom_with_jets(const minkray_support* support, minkray_jet_f
     require(support, "support");
     if (!jets) wrong_use("jets: must not be NULL");
     require(shape, "shape");
-    *shape = hold(Custom<double>{std::make_shared<const CustomSupport>(*support, 0, jets)});
+    *shape = hold(Custom{std::make_shared<const CustomSupport>(*support, 0, jets)});
   });
 }
 
@@ -220,8 +220,7 @@ int minkray_shape_bounds(minkray_shape shape, double lower[3], double upper[3]) 
     refuse_if_running(held.customs(), "shape");
     require(lower, "lower");
     require(upper, "upper");
-    const Bounds<double> bounds =
-        held.mesh() ? held.mesh()->bounds() : bounds_of<double>(*held.shape());
+    const Bounds<double> bounds = held.mesh() ? held.mesh()->bounds() : bounds_of(*held.shape());
     throw_if_lied(held.customs());
     for (int k = 0; k < 3; ++k) {
       lower[k] = bounds.lower[k];

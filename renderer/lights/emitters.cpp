@@ -29,7 +29,7 @@ double cone_height(double d2) {
 
 /// Factor by which an ellipsoid with these half axes, around the middle of the shape's bounding
 /// ball, must grow to hold the support points of many directions, and a little more.
-double growth_to_hold(const ShapeDefinition<double>& shape, const Vec3<double>& axes) {
+double growth_to_hold(const ShapeDefinition& shape, const Vec3<double>& axes) {
   constexpr int directions = 512;
   constexpr double golden_turn = 2.399963229728653, margin = 1.01;
   double farthest = 0;
@@ -45,7 +45,7 @@ double growth_to_hold(const ShapeDefinition<double>& shape, const Vec3<double>& 
 
 /// The half axes of an ellipsoid about the shape, in its inner frame: what little may look out of
 /// it is found by other rays.
-Vec3<double> half_axes(const ShapeDefinition<double>& shape) {
+Vec3<double> half_axes(const ShapeDefinition& shape) {
   const exact::Form& form = shape.form();
   if (form.kind == FormKind::ball && !form.is_off_centre) return form.R * form.scale.cwiseInverse();
   // As long as its box, flat where that is flat.
@@ -170,7 +170,7 @@ double AroundBody::pdf(const Vec3<double>& point, const Vec3<double>& direction)
   return determinant / (2 * std::numbers::pi * cone_height(d2) * stretched * stretched * stretched);
 }
 
-AroundBody around(const PreparedShape<double>& body) {
+AroundBody around(const PreparedShape& body) {
   const Vec3<double> axes = half_axes(body.definition());
   AroundBody result;
   result.centre = body.centre();
@@ -198,7 +198,7 @@ Emitters::Emitters(const World& world, const std::vector<Colour>& radiance_of_in
       add_mesh(static_cast<std::uint32_t>(i), radiance_of_part, lights);
     // Bodies that are unbounded or without size are found by chance alone.
     if (!(radiance.maxCoeff() > 0) || !world.instances().has_shape(i)) continue;
-    const PreparedShape<double> body = world.instances().at(i);
+    const PreparedShape body = world.instances().at(i);
     if (!(body.inner_ball().radius > 0)) continue;
     Emitter& emitter = emitters_.emplace_back(
         Emitter{static_cast<std::uint32_t>(i), radiance, around(body), 0, nullptr});

@@ -37,7 +37,7 @@ struct AroundBody {
 };
 
 /// The least of those that are known about an instance of a world.
-AroundBody around(const PreparedShape<double>& body);
+AroundBody around(const PreparedShape& body);
 
 /// A direction towards an emitter.
 struct EmitterSample {

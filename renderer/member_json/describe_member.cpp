@@ -106,7 +106,7 @@ MemberDescription describe(const Parameter& parameter, Member<std::array<Vec3<do
   return one_key(parameter, "3 points", schema_of_points(3));
 }
 
-MemberDescription describe(const Parameter& parameter, Member<PointCloud<double>>) {
+MemberDescription describe(const Parameter& parameter, Member<PointCloud>) {
   Json points = schema_of_points(1);
   points.erase("maxItems");
   MemberDescription description = one_key(parameter, "points, or a file's name", points);
@@ -118,11 +118,11 @@ MemberDescription describe(const Parameter& parameter, Member<PointCloud<double>
   return description;
 }
 
-MemberDescription describe(const Parameter& parameter, Member<Nested<double>>) {
+MemberDescription describe(const Parameter& parameter, Member<Nested>) {
   return one_key(parameter, "shape", reference("shape"));
 }
 
-MemberDescription describe(const Parameter& parameter, Member<ShapeList<double>>) {
+MemberDescription describe(const Parameter& parameter, Member<ShapeList>) {
   const Json shapes = {{"type", "array"}, {"items", reference("shape")}, {"minItems", 1}};
   MemberDescription description = one_key(parameter, "list of shapes", shapes);
   description.properties["a"] = reference("shape");
@@ -132,7 +132,7 @@ MemberDescription describe(const Parameter& parameter, Member<ShapeList<double>>
   return description;
 }
 
-MemberDescription describe(const Parameter&, Member<AffineMap<double>>) {
+MemberDescription describe(const Parameter&, Member<AffineMap>) {
   const Json number = schema_of_number(Range::any);
   const Json three = schema_of_list(number, 3);
   const Json four = schema_of_list(number, 4);

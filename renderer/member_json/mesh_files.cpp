@@ -26,8 +26,8 @@ std::string advice_on_mesh(const std::filesystem::path& folder, const std::files
   return "";
 }
 
-std::optional<PointCloud<double>> MeshFiles::read(const std::string& written, const JsonPath& path,
-                                                  Mistakes& mistakes) {
+std::optional<PointCloud> MeshFiles::read(const std::string& written, const JsonPath& path,
+                                          Mistakes& mistakes) {
   const std::string name = from_scene(written);
   const auto known = read_.find(name);
   if (known != read_.end()) return known->second.points;
@@ -38,7 +38,7 @@ std::optional<PointCloud<double>> MeshFiles::read(const std::string& written, co
     Hash hash;
     hash.add(
         {reinterpret_cast<const char*>(vertices.data()), vertices.size() * sizeof vertices[0]});
-    PointCloud<double> points(std::move(vertices), name);
+    PointCloud points(std::move(vertices), name);
     read_.emplace(name, Mesh{points, hash.text()});
     return points;
   } catch (const std::exception& error) {
@@ -48,10 +48,9 @@ std::optional<PointCloud<double>> MeshFiles::read(const std::string& written, co
   }
 }
 
-std::optional<std::vector<PointCloud<double>>> MeshFiles::read_parts(const std::string& written,
-                                                                     MeshSplit split,
-                                                                     const JsonPath& path,
-                                                                     Mistakes& mistakes) {
+std::optional<std::vector<PointCloud>> MeshFiles::read_parts(const std::string& written,
+                                                             MeshSplit split, const JsonPath& path,
+                                                             Mistakes& mistakes) {
   const std::string name = from_scene(written);
   const auto known = parts_.find({name, split});
   if (known != parts_.end()) return known->second.hulls;

@@ -66,13 +66,11 @@ class MeshFiles {
   }
 
   /// The vertices of a mesh file; nothing, and a mistake at `path`, if it cannot be used.
-  std::optional<PointCloud<double>> read(const std::string& name, const JsonPath& path,
-                                         Mistakes& mistakes);
+  std::optional<PointCloud> read(const std::string& name, const JsonPath& path, Mistakes& mistakes);
 
   /// Hulls of a mesh file's parts. A file without parts gives one hull of all vertices.
-  std::optional<std::vector<PointCloud<double>>> read_parts(const std::string& name,
-                                                            MeshSplit split, const JsonPath& path,
-                                                            Mistakes& mistakes);
+  std::optional<std::vector<PointCloud>> read_parts(const std::string& name, MeshSplit split,
+                                                    const JsonPath& path, Mistakes& mistakes);
 
   /// The triangles of a mesh file, its coordinates times the scale; no mesh, and a mistake, if it
   /// cannot be used. Vertices at the same place become one.
@@ -106,13 +104,13 @@ class MeshFiles {
 
  private:
   struct Mesh {
-    PointCloud<double> points;
+    PointCloud points;
     std::string hash;  ///< of all vertices, in the file's order
   };
   std::filesystem::path folder_, of_names_;
   std::map<std::string, Mesh> read_;
   struct Parts {
-    std::vector<PointCloud<double>> hulls;
+    std::vector<PointCloud> hulls;
     std::string hash;  ///< of all vertices, and of how they are split
   };
   std::map<std::pair<std::string, MeshSplit>, Parts> parts_;

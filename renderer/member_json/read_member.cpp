@@ -89,25 +89,24 @@ bool read_member(ObjectReader& object, const Parameter& parameter,
   return read_fixed_points(object, parameter, member);
 }
 
-bool read_member(ObjectReader& object, const Parameter& parameter, PointCloud<double>& member,
+bool read_member(ObjectReader& object, const Parameter& parameter, PointCloud& member,
                  MeshFiles& meshes) {
   Mistakes& mistakes = object.mistakes();
   const Json* file = object.find("file");
   const Json* inline_points = object.find(parameter.name);
   if (!file) {
-    return read_key(
-        object, parameter, member,
-        [&](const Json& json, const JsonPath& path) -> std::optional<PointCloud<double>> {
-          auto points =
-              read_points(json, path, mistakes, 1, std::numeric_limits<std::size_t>::max());
-          if (!points) return std::nullopt;
-          try {
-            return PointCloud<double>(std::move(*points));
-          } catch (const std::runtime_error& error) {
-            mistakes.add(path, error.what());
-            return std::nullopt;
-          }
-        });
+    return read_key(object, parameter, member,
+                    [&](const Json& json, const JsonPath& path) -> std::optional<PointCloud> {
+                      auto points = read_points(json, path, mistakes, 1,
+                                                std::numeric_limits<std::size_t>::max());
+                      if (!points) return std::nullopt;
+                      try {
+                        return PointCloud(std::move(*points));
+                      } catch (const std::runtime_error& error) {
+                        mistakes.add(path, error.what());
+                        return std::nullopt;
+                      }
+                    });
   }
   if (inline_points) {
     mistakes.add(object.path(),
@@ -122,14 +121,14 @@ bool read_member(ObjectReader& object, const Parameter& parameter, PointCloud<do
   return true;
 }
 
-bool read_member(ObjectReader& object, const Parameter& parameter, Nested<double>& member,
+bool read_member(ObjectReader& object, const Parameter& parameter, Nested& member,
                  MeshFiles& meshes) {
   return read_key(object, parameter, member, [&](const Json& json, const JsonPath& path) {
     return read_shape(json, path, object.mistakes(), meshes);
   });
 }
 
-bool read_member(ObjectReader& object, const Parameter& parameter, ShapeList<double>& member,
+bool read_member(ObjectReader& object, const Parameter& parameter, ShapeList& member,
                  MeshFiles& meshes) {
   // Two operands may be called a and b, too.
   const Json* a = object.find("a");
@@ -151,9 +150,9 @@ bool read_member(ObjectReader& object, const Parameter& parameter, ShapeList<dou
   });
 }
 
-bool read_member(ObjectReader& object, const Parameter&, AffineMap<double>& member, MeshFiles&) {
+bool read_member(ObjectReader& object, const Parameter&, AffineMap& member, MeshFiles&) {
   const auto map = read_affine(object);
-  if (map) member = AffineMap<double>(*map);
+  if (map) member = AffineMap(*map);
   return map.has_value();
 }
 

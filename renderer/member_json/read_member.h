@@ -37,10 +37,10 @@ bool read_member(ObjectReader&, const Parameter&, std::array<double, 2>& member,
 bool read_member(ObjectReader&, const Parameter&, Vec3<double>& member, MeshFiles&);
 bool read_member(ObjectReader&, const Parameter&, std::array<Vec3<double>, 2>& member, MeshFiles&);
 bool read_member(ObjectReader&, const Parameter&, std::array<Vec3<double>, 3>& member, MeshFiles&);
-bool read_member(ObjectReader&, const Parameter&, PointCloud<double>& member, MeshFiles&);
-bool read_member(ObjectReader&, const Parameter&, Nested<double>& member, MeshFiles&);
-bool read_member(ObjectReader&, const Parameter&, ShapeList<double>& member, MeshFiles&);
-bool read_member(ObjectReader&, const Parameter&, AffineMap<double>& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, PointCloud& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, Nested& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, ShapeList& member, MeshFiles&);
+bool read_member(ObjectReader&, const Parameter&, AffineMap& member, MeshFiles&);
 bool read_member(ObjectReader&, const Parameter&, Resolution& member, MeshFiles&);
 bool read_member(ObjectReader&, const Parameter&, std::optional<double>& member, MeshFiles&);
 bool read_member(ObjectReader&, const Parameter&, std::string& member, MeshFiles&);

@@ -37,10 +37,10 @@ bool fits(ObjectReader& object, const std::optional<Misfit>& misfit) {
 
 }  // namespace
 
-std::optional<Shape<double>> read_shape(const Json& json, const JsonPath& path, Mistakes& mistakes,
-                                        MeshFiles& meshes) {
+std::optional<Shape> read_shape(const Json& json, const JsonPath& path, Mistakes& mistakes,
+                                MeshFiles& meshes) {
   ObjectReader object(json, path, mistakes);
-  auto kind = read_tagged<ShapeVariant<double>>(object, "a shape", [&]<class S>(S& shape) {
+  auto kind = read_tagged<ShapeVariant>(object, "a shape", [&]<class S>(S& shape) {
     if constexpr (takes_list_of_operands<S>()) {
       if (const Json* list = object.find("shapes")) {
         return read_operands_from_list(object, *list, shape, meshes);
@@ -51,18 +51,17 @@ std::optional<Shape<double>> read_shape(const Json& json, const JsonPath& path, 
     return true;
   });
   if (!kind) return std::nullopt;
-  return std::visit([](auto& shape) { return Shape<double>(std::move(shape)); }, *kind);
+  return std::visit([](auto& shape) { return Shape(std::move(shape)); }, *kind);
 }
 
-std::optional<ShapeList<double>> read_shapes(const Json& json, const JsonPath& path,
-                                             Mistakes& mistakes, MeshFiles& meshes,
-                                             std::size_t least) {
+std::optional<ShapeList> read_shapes(const Json& json, const JsonPath& path, Mistakes& mistakes,
+                                     MeshFiles& meshes, std::size_t least) {
   if (!json.is_array() || json.size() < least) {
     mistakes.add(path, "must be a list of shapes, at least " + std::to_string(least) + " (" +
                            found(json) + ")");
     return std::nullopt;
   }
-  ShapeList<double> shapes;
+  ShapeList shapes;
   for (std::size_t i = 0; i < json.size(); ++i) {
     if (const auto shape = read_shape(json[i], path / i, mistakes, meshes)) {
       shapes.push_back(*shape);
@@ -72,7 +71,7 @@ std::optional<ShapeList<double>> read_shapes(const Json& json, const JsonPath& p
   return shapes;
 }
 
-Json write_shape(const Shape<double>& shape) {
+Json write_shape(const Shape& shape) {
   return std::visit(
       []<class S>(const S& kind) {
         Json json = {{"type", S::name}};

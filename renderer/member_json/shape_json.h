@@ -13,15 +13,14 @@ namespace minkray {
 
 /// Reads one shape, nested to any depth. Returns nothing and adds mistakes if any part is invalid.
 /// `path` is its location in the file.
-std::optional<Shape<double>> read_shape(const Json& json, const JsonPath& path, Mistakes& mistakes,
-                                        MeshFiles& meshes);
+std::optional<Shape> read_shape(const Json& json, const JsonPath& path, Mistakes& mistakes,
+                                MeshFiles& meshes);
 
 /// Reads a list of shapes with a least length.
-std::optional<ShapeList<double>> read_shapes(const Json& json, const JsonPath& path,
-                                             Mistakes& mistakes, MeshFiles& meshes,
-                                             std::size_t least);
+std::optional<ShapeList> read_shapes(const Json& json, const JsonPath& path, Mistakes& mistakes,
+                                     MeshFiles& meshes, std::size_t least);
 
 /// Inverse of read_shape. Points from a mesh file are written as that file's name.
-Json write_shape(const Shape<double>& shape);
+Json write_shape(const Shape& shape);
 
 }  // namespace minkray

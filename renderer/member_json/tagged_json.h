@@ -40,7 +40,7 @@ template <class S>
 constexpr std::size_t operand_count() {
   std::size_t count = 0;
   for_each_field<S>([&](const auto& field) {
-    count += std::is_same_v<typename std::remove_cvref_t<decltype(field)>::Member, Nested<double>>;
+    count += std::is_same_v<typename std::remove_cvref_t<decltype(field)>::Member, Nested>;
   });
   return count;
 }
@@ -58,7 +58,7 @@ constexpr bool takes_list_of_operands() {
 template <class Variant, class Read>
 std::optional<Variant> read_tagged(ObjectReader& object, std::string_view what, Read&& read) {
   std::vector<std::string> names = type_names<Variant>();
-  if constexpr (std::is_same_v<Variant, ShapeVariant<double>>) names.emplace_back(half_space_name);
+  if constexpr (std::is_same_v<Variant, ShapeVariant>) names.emplace_back(half_space_name);
   const Json* type = object.require("type", "the name of " + std::string(what));
   if (!type) return std::nullopt;
   const auto name = read_string(*type, object.path("type"), object.mistakes());

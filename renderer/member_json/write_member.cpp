@@ -44,7 +44,7 @@ void write_member(Json& object, std::string_view name, const std::array<Vec3<dou
   value_of(object, name) = list_of_points(member);
 }
 
-void write_member(Json& object, std::string_view name, const PointCloud<double>& member) {
+void write_member(Json& object, std::string_view name, const PointCloud& member) {
   if (member.source().empty()) {
     value_of(object, name) = list_of_points(member.points());
   } else {
@@ -52,17 +52,17 @@ void write_member(Json& object, std::string_view name, const PointCloud<double>&
   }
 }
 
-void write_member(Json& object, std::string_view name, const Nested<double>& member) {
+void write_member(Json& object, std::string_view name, const Nested& member) {
   value_of(object, name) = write_shape(*member);
 }
 
-void write_member(Json& object, std::string_view name, const ShapeList<double>& member) {
+void write_member(Json& object, std::string_view name, const ShapeList& member) {
   Json list = Json::array();
-  for (const Nested<double>& shape : member) list.push_back(write_shape(*shape));
+  for (const Nested& shape : member) list.push_back(write_shape(*shape));
   value_of(object, name) = std::move(list);
 }
 
-void write_member(Json& object, std::string_view, const AffineMap<double>& member) {
+void write_member(Json& object, std::string_view, const AffineMap& member) {
   const Affine<double>& map = member.affine();
   Json rows = Json::array();
   for (int i = 0; i < 3; ++i) {

@@ -23,10 +23,10 @@ void write_member(Json& object, std::string_view name, const std::array<double, 
 void write_member(Json& object, std::string_view name, const Vec3<double>& member);
 void write_member(Json& object, std::string_view name, const std::array<Vec3<double>, 2>& member);
 void write_member(Json& object, std::string_view name, const std::array<Vec3<double>, 3>& member);
-void write_member(Json& object, std::string_view name, const PointCloud<double>& member);
-void write_member(Json& object, std::string_view name, const Nested<double>& member);
-void write_member(Json& object, std::string_view name, const ShapeList<double>& member);
-void write_member(Json& object, std::string_view name, const AffineMap<double>& member);
+void write_member(Json& object, std::string_view name, const PointCloud& member);
+void write_member(Json& object, std::string_view name, const Nested& member);
+void write_member(Json& object, std::string_view name, const ShapeList& member);
+void write_member(Json& object, std::string_view name, const AffineMap& member);
 void write_member(Json& object, std::string_view name, const Resolution& member);
 /// These are left out where there is none.
 void write_member(Json& object, std::string_view name, const std::optional<double>& member);

@@ -22,7 +22,7 @@ constexpr int bodies = 40, frames = 120;
 constexpr double room = 2.5, frame_time = 1.0 / 60;
 
 struct Body {
-  CentredShape<double> shape;
+  CentredShape shape;
   Vec3<double> velocity;
   ContactShape ready;  ///< about the centre
 };
@@ -32,16 +32,16 @@ std::vector<Body> make_bodies(unsigned seed) {
   std::vector<Body> list;
   for (int i = 0; i < bodies; ++i) {
     const Mat3<double> turn = samples.rotation();
-    Shape<double> shape = Sphere<double>{0.5};
+    Shape shape = Sphere{0.5};
     switch (i % 5) {
       case 0:
-        shape = Box<double>{{0.6, 0.4, 0.3}};
+        shape = Box{{0.6, 0.4, 0.3}};
         break;
       case 1:
-        shape = Cylinder<double>{0.4, 0.5};
+        shape = Cylinder{0.4, 0.5};
         break;
       case 2:
-        shape = Cone<double>{0.5, 0.5};
+        shape = Cone{0.5, 0.5};
         break;
       case 3:
         shape = samples.hull(24);
@@ -50,7 +50,7 @@ std::vector<Body> make_bodies(unsigned seed) {
         break;
     }
     const Vec3<double> where = samples.in_cube(room), velocity = samples.in_ball(4);
-    const CentredShape<double> body = centred(shape, Affine<double>{turn, where});
+    const CentredShape body = centred(shape, Affine<double>{turn, where});
     list.push_back({body, velocity, ContactShape(body.about_centre)});
   }
   return list;
@@ -85,7 +85,7 @@ Run run(Kind kind, unsigned seed) {
   for (int frame = 0; frame < frames; ++frame) {
     for (std::size_t i = 0; i < bodies; ++i) {
       for (std::size_t j = i + 1; j < bodies; ++j) {
-        const CentredShape<double>&A = list[i].shape, &B = list[j].shape;
+        const CentredShape &A = list[i].shape, &B = list[j].shape;
         const Vec3<double> x = B.centre - A.centre;
         const Vec3<double> relative = list[j].velocity - list[i].velocity;
         if (x.norm() > A.radius + B.radius + frame_time * relative.norm()) continue;
@@ -109,7 +109,7 @@ Run run(Kind kind, unsigned seed) {
         } else {
           // Algorithm 3 bare: a ball that holds all rays, so that it rejects none.
           struct Obstacle {
-            const Shape<double>&a, &b;
+            const Shape &a, &b;
             Vec3<double> support(const Vec3<double>& v) const {
               return a.support(v) - b.support(Vec3<double>(-v));
             }
@@ -157,7 +157,7 @@ OwnRun own_run(bool is_kept, unsigned seed) {
     std::vector<Pair> pairs;
     for (std::size_t i = 0; i < bodies; ++i)
       for (std::size_t j = i + 1; j < bodies; ++j) {
-        const CentredShape<double>&A = list[i].shape, &B = list[j].shape;
+        const CentredShape &A = list[i].shape, &B = list[j].shape;
         const Vec3<double> relative = list[j].velocity - list[i].velocity;
         if ((B.centre - A.centre).norm() <= A.radius + B.radius + frame_time * relative.norm())
           pairs.push_back({i, j});

@@ -4,7 +4,6 @@
 // the ray's own origin, without the bounding ball test (the ball is made large).
 #include <cmath>
 
-#include "core/derived/convert.h"
 #include "core/derived/shape_bounds.h"
 #include "core/gjk/first_solution.h"
 #include "core/gjk/gjk_ray_cast.h"
@@ -18,13 +17,27 @@ namespace {
 /// Largest distance of the origins of rays at single shapes, in radii; see Samples::ray_at_ball.
 constexpr double bare_ball = 6;
 
+/// Support points of a shape, rounded to float.
+struct InFloat {
+  const Shape& shape;
+  Vec3<float> support(const Vec3<float>& n) const {
+    return shape.support(Vec3<double>(n.cast<double>())).cast<float>();
+  }
+};
+
+/// Casts in double or in float.
 template <class T>
-CastResult<T> bare_cast(const Shape<T>& shape, const Ray<T>& ray, T eps_tol,
+CastResult<T> bare_cast(const Shape& shape, const Ray<double>& ray, T eps_tol,
                         double within = bare_ball) {
   const Ball<T> ball{Vec3<T>::Zero(), T(within)};
   GjkCastOptions<T> options;
   options.eps_tol = eps_tol;
-  return gjk_ray_cast(shape, ray_near(ball.centre, ray), ball, options);
+  const Ray<T> same{ray.origin.cast<T>(), ray.direction.cast<T>(), T(ray.t_max)};
+  const RayNearBall<T> near = ray_near(ball.centre, same);
+  if constexpr (std::is_same_v<T, float>)
+    return gjk_ray_cast(InFloat{shape}, near, ball, options);
+  else
+    return gjk_ray_cast(shape, near, ball, options);
 }
 
 struct Mean {
@@ -40,14 +53,12 @@ struct Iterations {
 };
 
 template <class T>
-Iterations iterations(const Shape<double>& shape, T eps_tol, const ClaimOptions& options) {
+Iterations iterations(const Shape& shape, T eps_tol, const ClaimOptions& options) {
   Samples samples(options.seed);
-  const Shape<T> converted = convert<T>(shape);
   Iterations result;
   for (int i = 0; i < options.rays; ++i) {
     const Ray<double> ray = samples.ray_at_ball(1);
-    const CastResult<T> cast = bare_cast<T>(
-        converted, {ray.origin.template cast<T>(), ray.direction.template cast<T>()}, eps_tol);
+    const CastResult<T> cast = bare_cast<T>(shape, ray, eps_tol);
     result.all.add(cast.iterations);
     (cast.found() ? result.hits : result.misses).add(cast.iterations);
     result.most = std::max(result.most, cast.iterations);
@@ -71,8 +82,7 @@ Fit fit_line(const std::vector<std::pair<double, double>>& points) {
 
 constexpr int first_power = 3, last_power = 12;
 
-PlotSeries series_for(const std::string& name, const Shape<double>& shape,
-                      const ClaimOptions& options) {
+PlotSeries series_for(const std::string& name, const Shape& shape, const ClaimOptions& options) {
   PlotSeries series{name, {}};
   for (int power = first_power; power <= last_power; ++power)
     series.points.emplace_back(power,
@@ -80,12 +90,12 @@ PlotSeries series_for(const std::string& name, const Shape<double>& shape,
   return series;
 }
 
-std::vector<std::pair<std::string, Shape<double>>> polytopes(unsigned seed) {
+std::vector<std::pair<std::string, Shape>> polytopes(unsigned seed) {
   Samples samples(seed + 1000);
   const double h = 1 / std::sqrt(3.0);
-  return {{"box", Box<double>{{h, h, h}}},
-          {"tetrahedron", Hull<double>{PointCloud<double>(
-                              {Vec3<double>(h, h, h), {h, -h, -h}, {-h, h, -h}, {-h, -h, h}})}},
+  return {{"box", Box{{h, h, h}}},
+          {"tetrahedron",
+           Hull{PointCloud({Vec3<double>(h, h, h), {h, -h, -h}, {-h, h, -h}, {-h, -h, h}})}},
           {"hull of 32 points", samples.hull(32)},
           {"hull of 256 points", samples.hull(256)}};
 }
@@ -94,7 +104,7 @@ std::vector<std::pair<std::string, Shape<double>>> polytopes(unsigned seed) {
 
 ClaimResult sphere_iterations(const ClaimOptions& options) {
   ClaimResult result;
-  const Shape<double> sphere = Sphere<double>{1};
+  const Shape sphere = Sphere{1};
   PlotSeries hits = series_for("unit sphere, hits", sphere, options);
   const Fit fit = fit_line(hits.points);
   PlotSeries line{formatted("%.2f + %.2f (-log10 eps_tol)", fit.a, fit.b), {}, false};
@@ -142,9 +152,9 @@ ClaimResult polytope_iterations(const ClaimOptions& options) {
             "-log10 eps_tol",
             "mean iterations of a hit",
             {}};
-  plot.series.push_back(series_for("sphere", Sphere<double>{1}, options));
+  plot.series.push_back(series_for("sphere", Sphere{1}, options));
   bool all_fewer = true;
-  const double of_sphere = iterations<double>(Sphere<double>{1}, 1e-6, options).hits();
+  const double of_sphere = iterations<double>(Sphere{1}, 1e-6, options).hits();
   result.ours.push_back(formatted("hits at eps_tol 1e-6: sphere %.1f", of_sphere));
   for (const auto& [name, shape] : polytopes(options.seed)) {
     plot.series.push_back(series_for(name, shape, options));
@@ -167,8 +177,8 @@ ClaimResult short_rays(const ClaimOptions& options) {
   Mean aimed_endless, aimed_finite, random_endless, random_finite;
   int hits = 0, contacts = 0;
   for (int i = 0; i < options.rays; ++i) {
-    const Shape<double>& body = i % 5 == 4 ? Shape<double>(Sphere<double>{1})
-                                           : bodies[static_cast<std::size_t>(i % 5)].second;
+    const Shape& body =
+        i % 5 == 4 ? Shape(Sphere{1}) : bodies[static_cast<std::size_t>(i % 5)].second;
     const Vec3<double> origin = samples.in_cube(half_width), target = samples.in_ball(0.6);
     Ray<double> ray{origin, unit<double>(target - origin)};
     const CastResult<double> endless = bare_cast<double>(body, ray, 1e-6, within);
@@ -204,22 +214,19 @@ ClaimResult short_rays(const ClaimOptions& options) {
 ClaimResult float_terminates(const ClaimOptions& options) {
   Samples samples(options.seed);
   auto shapes = polytopes(options.seed);
-  shapes.emplace_back("sphere", Sphere<double>{1});
-  shapes.emplace_back("ellipsoid", Ellipsoid<double>{{1, 0.3, 0.05}});
-  shapes.emplace_back("cone", Cone<double>{0.8, 0.5});
-  shapes.emplace_back("cylinder", Cylinder<double>{0.6, 0.6});
-  shapes.emplace_back("rounded box",
-                      Rounded<double>{0.1, Nested<double>(Box<double>{{0.5, 0.3, 0.2}})});
+  shapes.emplace_back("sphere", Sphere{1});
+  shapes.emplace_back("ellipsoid", Ellipsoid{{1, 0.3, 0.05}});
+  shapes.emplace_back("cone", Cone{0.8, 0.5});
+  shapes.emplace_back("cylinder", Cylinder{0.6, 0.6});
+  shapes.emplace_back("rounded box", Rounded{0.1, Nested(Box{{0.5, 0.3, 0.2}})});
   constexpr float epsilon = tolerance::epsilon<float>;
   ClaimResult result;
   const auto run = [&](float eps_tol, const char* what) {
     int most = 0, at_cap = 0, exhausted = 0, casts = 0;
     for (const auto& [name, shape] : shapes) {
-      const Shape<float> converted = convert<float>(shape);
       for (int i = 0; i < options.rays; ++i) {
         const Ray<double> ray = samples.ray_at_ball(1);
-        const CastResult<float> cast = bare_cast<float>(
-            converted, {ray.origin.cast<float>(), ray.direction.cast<float>()}, eps_tol);
+        const CastResult<float> cast = bare_cast<float>(shape, ray, eps_tol);
         most = std::max(most, cast.iterations);
         at_cap += cast.iterations >= tolerance::gjk_max_iterations;
         exhausted += cast.status == Status::exhausted;
@@ -246,13 +253,13 @@ ClaimResult float_terminates(const ClaimOptions& options) {
 ClaimResult first_solution_cost(const ClaimOptions& options) {
   ClaimResult result;
   auto shapes = polytopes(options.seed);
-  shapes.emplace_back("sphere", Sphere<double>{1});
-  shapes.emplace_back("ellipsoid", Ellipsoid<double>{{1, 0.5, 0.25}});
-  shapes.emplace_back("cone", Cone<double>{0.8, 0.5});
+  shapes.emplace_back("sphere", Sphere{1});
+  shapes.emplace_back("ellipsoid", Ellipsoid{{1, 0.5, 0.25}});
+  shapes.emplace_back("cone", Cone{0.8, 0.5});
   bool always_more = true;
   for (const auto& [name, shape] : shapes) {
     Samples samples(options.seed);
-    const Ball<double> ball = ball_around(bounds_of<double>(shape));
+    const Ball<double> ball = ball_around(bounds_of(shape));
     Mean outer, nested, single;
     double furthest_apart = 0;
     int disagreeing = 0, gave_up_first = 0, gave_up_third = 0;

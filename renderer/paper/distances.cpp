@@ -3,7 +3,6 @@
 #include <ctime>
 #include <limits>
 
-#include "core/derived/convert.h"
 #include "core/shape_cast/distance.h"
 #include "renderer/paper/claim.h"
 #include "renderer/paper/samples.h"
@@ -12,32 +11,31 @@ namespace minkray {
 namespace {
 
 struct Pair {
-  CentredShape<double> a, b;
+  CentredShape a, b;
 };
 
 /// Half of them far apart, half at a hair's breadth, which is where simplices get flat.
 std::vector<Pair> make_pairs(const ClaimOptions& options, int count) {
   Samples samples(options.seed);
   std::vector<Pair> pairs;
-  const auto shape = [&](int i) -> Shape<double> {
+  const auto shape = [&](int i) -> Shape {
     switch (i % 5) {
       case 0:
-        return Box<double>{{1, 0.5, 0.25}};
+        return Box{{1, 0.5, 0.25}};
       case 1:
-        return Cylinder<double>{0.5, 0.75};
+        return Cylinder{0.5, 0.75};
       case 2:
-        return Cone<double>{0.5, 0.75};
+        return Cone{0.5, 0.75};
       case 3:
-        return Ellipsoid<double>{{1, 0.6, 0.3}};
+        return Ellipsoid{{1, 0.6, 0.3}};
       default:
         return samples.hull(32);
     }
   };
   for (int i = 0; i < count; ++i) {
     const Mat3<double> turn_a = samples.rotation(), turn_b = samples.rotation();
-    CentredShape<double> a = centred(shape(i), Affine<double>{turn_a, Vec3<double>::Zero()});
-    CentredShape<double> b =
-        centred(shape(i / 5), Affine<double>{turn_b, unit(samples.in_ball(1)) * 4});
+    CentredShape a = centred(shape(i), Affine<double>{turn_a, Vec3<double>::Zero()});
+    CentredShape b = centred(shape(i / 5), Affine<double>{turn_b, unit(samples.in_ball(1)) * 4});
     if (i % 2) {
       const auto far = distance_between(a, b);
       b.centre -= (far.distance - std::pow(10, samples.in(-9, -3))) * far.axis;
@@ -47,10 +45,19 @@ std::vector<Pair> make_pairs(const ClaimOptions& options, int count) {
   return pairs;
 }
 
+/// The distance in float or in double, with supports in double.
 template <class T>
-CentredShape<T> convert_centred(const CentredShape<double>& shape) {
-  return {convert<T>(shape.about_centre), shape.centre.template cast<T>(),
-          static_cast<T>(shape.radius)};
+DistanceResult<T, 3> bare_distance(const Pair& pair, SubalgorithmKind kind) {
+  const auto supports = [&](const Vec3<T>& v) {
+    const Vec3<double> n = v.template cast<double>();
+    return SupportPair<T, 3>{pair.a.about_centre.support(n).template cast<T>(),
+                             pair.b.about_centre.support(Vec3<double>(-n)).template cast<T>()};
+  };
+  const Vec3<T> apart = (pair.b.centre - pair.a.centre).template cast<T>();
+  const T radius = T(pair.a.radius + pair.b.radius);
+  return with_subalgorithm<T, 3>(kind, [&]<class G>(G Y) {
+    return gjk_distance<T, 3>(supports, apart, radius, DistanceOptions<T, 3>(), Y);
+  });
 }
 
 struct Score {
@@ -61,13 +68,10 @@ struct Score {
 template <class T>
 Score score(SubalgorithmKind kind, const std::vector<Pair>& pairs,
             const std::vector<double>& reference) {
-  std::vector<std::pair<CentredShape<T>, CentredShape<T>>> converted;
-  for (const Pair& pair : pairs)
-    converted.emplace_back(convert_centred<T>(pair.a), convert_centred<T>(pair.b));
   Score result;
   const std::clock_t start = std::clock();  // processor time: other load does not count
-  for (std::size_t i = 0; i < converted.size(); ++i) {
-    const auto answer = distance_between(converted[i].first, converted[i].second, {}, kind);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto answer = bare_distance<T>(pairs[i], kind);
     const double error = std::abs(double(answer.distance) - reference[i]);
     result.worst = std::max(result.worst, error);
     result.above_tolerance += error > 16 * double(tolerance::epsilon<T>);
@@ -158,21 +162,21 @@ ClaimResult distance_decreases(const ClaimOptions& options) {
         points.push_back(samples.in_cube(1));
         points.back().z() = 0;
       }
-      return Shape<double>(Hull<double>{PointCloud<double>(std::move(points))});
+      return Shape(Hull{PointCloud(std::move(points))});
     };
     const auto a = centred(polygon());
     Vec3<double> away = samples.in_cube(3);
     away.z() = 0;
     const auto b = centred(polygon(), Affine<double>{Mat3<double>::Identity(), away});
     double length = std::numeric_limits<double>::infinity();
-    const auto result = distance_in_plane<double>(a, b, {}, SubalgorithmKind::projection,
-                                                  [&](const DistanceIteration<double, 2>& step) {
-                                                    if (step.upper > length) {
-                                                      ++increases;
-                                                      worst = std::max(worst, step.upper - length);
-                                                    }
-                                                    length = step.upper;
-                                                  });
+    const auto result = distance_in_plane(a, b, {}, SubalgorithmKind::projection,
+                                          [&](const DistanceIteration<double, 2>& step) {
+                                            if (step.upper > length) {
+                                              ++increases;
+                                              worst = std::max(worst, step.upper - length);
+                                            }
+                                            length = step.upper;
+                                          });
     steps += result.iterations;
     longest = std::max(longest, result.iterations);
     ++runs;

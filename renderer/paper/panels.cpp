@@ -131,20 +131,19 @@ class Panels {
 
 }  // namespace
 
-std::string distance_panels_svg(const Shape<double>& a, const Shape<double>& b,
-                                SubalgorithmKind subalgorithm, DistanceResult<double, 2>& result) {
-  const CentredShape<double> A = centred(a), B = centred(b);
+std::string distance_panels_svg(const Shape& a, const Shape& b, SubalgorithmKind subalgorithm,
+                                DistanceResult<double, 2>& result) {
+  const CentredShape A = centred(a), B = centred(b);
   std::vector<Step> steps;
-  result = distance_in_plane<double>(A, B, {}, subalgorithm,
-                                     [&](const DistanceIteration<double, 2>& step) {
-                                       steps.push_back({step.v,
-                                                        step.w,
-                                                        step.v_next,
-                                                        step.lower,
-                                                        step.upper,
-                                                        {step.before.begin(), step.before.end()},
-                                                        {step.after.begin(), step.after.end()}});
-                                     });
+  result = distance_in_plane(A, B, {}, subalgorithm, [&](const DistanceIteration<double, 2>& step) {
+    steps.push_back({step.v,
+                     step.w,
+                     step.v_next,
+                     step.lower,
+                     step.upper,
+                     {step.before.begin(), step.before.end()},
+                     {step.after.begin(), step.after.end()}});
+  });
   std::vector<Point2> outline;
   const Point2 x = (B.centre - A.centre).head<2>();
   for (int i = 0; i < outline_directions; ++i) {

@@ -47,10 +47,10 @@ class Samples {
     return {origin, unit<double>(target - origin)};
   }
 
-  Hull<double> hull(int points) {
+  Hull hull(int points) {
     std::vector<Vec3<double>> list;
     for (int i = 0; i < points; ++i) list.push_back(unit(in_ball(1)));
-    return {PointCloud<double>(std::move(list))};
+    return {PointCloud(std::move(list))};
   }
 
  private:

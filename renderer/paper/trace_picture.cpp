@@ -15,12 +15,11 @@ constexpr int outline_points = 720;
 
 }  // namespace
 
-template <class T>
-std::string trace_table(const CastTrace<T>& trace) {
+std::string trace_table(const CastTrace& trace) {
   std::string text = formatted("%4s %4s %-24s %-24s %-24s %-12s %s\n", "k", "case", "t_clip",
                                "t_lo", "t_hi", "|v|", "simplex");
   int k = 0;
-  for (const TracedIteration<T>& step : trace.iterations)
+  for (const TracedIteration& step : trace.iterations)
     text += formatted("%4d %4d %-24.17g %-24.17g %-24.17g %-12.5g %d\n", k++,
                       static_cast<int>(step.clip.which), trace.t(step.clip.lambda),
                       trace.t(step.lower), trace.t(step.upper), double(step.v.norm()),
@@ -35,18 +34,17 @@ std::string trace_table(const CastTrace<T>& trace) {
          "  of the search direction; simplex: support points that are kept\n";
 }
 
-template <class T>
-std::string trace_svg(const CastTrace<T>& trace, const PreparedShape<T>& shape) {
+std::string trace_svg(const CastTrace& trace, const PreparedShape& shape) {
   // The picture's plane: x along the ray, y from the ball's centre to the ray.
-  const Vec3<T> r = trace.ray.r.isZero(T(0)) ? Vec3<T>(Vec3<T>::UnitX()) : trace.ray.r;
-  Vec3<T> up = trace.ray.s;
-  if (!(up.norm() > T(1e-3) * trace.ball.radius)) up = r.unitOrthogonal();
+  const Vec3<double> r = trace.ray.r.isZero(0) ? Vec3<double>(Vec3<double>::UnitX()) : trace.ray.r;
+  Vec3<double> up = trace.ray.s;
+  if (!(up.norm() > double(1e-3) * trace.ball.radius)) up = r.unitOrthogonal();
   up = (up - up.dot(r) * r).normalized();
   const double radius = double(trace.ball.radius),
                scale = (picture_side - 2 * picture_margin) / (4 * radius);
   const auto px = [&](double along) { return picture_side / 2 + along * scale; };
   const auto py = [&](double height) { return picture_side / 2 - height * scale; };
-  const auto at = [&](const Vec3<T>& p) {
+  const auto at = [&](const Vec3<double>& p) {
     return formatted("%.2f,%.2f", px(double(p.dot(r))), py(double(p.dot(up))));
   };
   const double ray_height = double(trace.ray.s.dot(up));
@@ -62,8 +60,8 @@ std::string trace_svg(const CastTrace<T>& trace, const PreparedShape<T>& shape) 
                    picture_side, picture_side)
       << "<g clip-path=\"url(#p)\">\n<polygon fill=\"#eeeeee\" stroke=\"#888888\" points=\"";
   for (int i = 0; i < outline_points; ++i) {
-    const T angle = T(2 * std::acos(-1.0) * i / outline_points);
-    const Vec3<T> n = std::cos(angle) * r + std::sin(angle) * up;
+    const double angle = double(2 * std::acos(-1.0) * i / outline_points);
+    const Vec3<double> n = std::cos(angle) * r + std::sin(angle) * up;
     svg << at(shape.inner_shape().support(n) - trace.ball.centre) << ' ';
   }
   svg << "\"/>\n"
@@ -71,7 +69,7 @@ std::string trace_svg(const CastTrace<T>& trace, const PreparedShape<T>& shape) 
                    std::max(px(double(trace.ray.lambda_min)), -picture_side), py(ray_height),
                    std::min(px(double(trace.ray.lambda_max)), 2 * picture_side), py(ray_height));
   int k = 0;
-  for (const TracedIteration<T>& step : trace.iterations) {
+  for (const TracedIteration& step : trace.iterations) {
     const double clip = double(step.clip.lambda);
     // The whole plane v . x = v . p, where it crosses the picture's plane: a line through where it
     // clips the ray, square to what is seen of v.
@@ -111,18 +109,11 @@ std::string trace_svg(const CastTrace<T>& trace, const PreparedShape<T>& shape) 
   y += line_height;
   write(formatted("%3s %4s %14s %14s %14s", "k", "case", "t_clip", "t_lo", "t_hi"));
   k = 0;
-  for (const TracedIteration<T>& step : trace.iterations)
+  for (const TracedIteration& step : trace.iterations)
     write(formatted("%3d %4d %14.9g %14.9g %14.9g", k++, static_cast<int>(step.clip.which),
                     trace.t(step.clip.lambda), trace.t(step.lower), trace.t(step.upper)));
   svg << "</g>\n</svg>\n";
   return svg.str();
 }
-
-#define MINKRAY_INSTANTIATE(T)                           \
-  template std::string trace_table(const CastTrace<T>&); \
-  template std::string trace_svg(const CastTrace<T>&, const PreparedShape<T>&);
-MINKRAY_INSTANTIATE(float)
-MINKRAY_INSTANTIATE(double)
-#undef MINKRAY_INSTANTIATE
 
 }  // namespace minkray

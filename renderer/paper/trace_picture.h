@@ -9,12 +9,10 @@
 namespace minkray {
 
 /// A line for each iteration: which case of clipping, where, and what is left of the ray.
-template <class T>
-std::string trace_table(const CastTrace<T>& trace);
+std::string trace_table(const CastTrace& trace);
 
 /// The SVG file: the shape's shadow on the plane through the ray and the centre of its ball, the
 /// ray, the support points, the clip points of their planes on the ray, and the bounds next to it.
-template <class T>
-std::string trace_svg(const CastTrace<T>& trace, const PreparedShape<T>& shape);
+std::string trace_svg(const CastTrace& trace, const PreparedShape& shape);
 
 }  // namespace minkray

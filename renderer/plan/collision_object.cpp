@@ -20,7 +20,7 @@ struct Primitive {
   std::string_view name;
   int number;
   std::size_t dimensions;
-  Shape<double> (*make)(const std::vector<double>& d);
+  Shape (*make)(const std::vector<double>& d);
 };
 const Primitive primitives[] = {
     {"box", 1, 3,

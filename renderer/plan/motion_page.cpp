@@ -23,7 +23,7 @@ double rounded(double length) {
   return std::round(1e4 * length) / 1e4;
 }
 
-Json mesh_of(const Shape<double>& shape, const Affine<double>& pose) {
+Json mesh_of(const Shape& shape, const Affine<double>& pose) {
   Json vertices = Json::array(), triangles = Json::array();
   try {
     SandwichOptions options;

@@ -14,10 +14,7 @@
 
 namespace minkray {
 
-enum class Precision : unsigned char { in_float, in_double };
-
 struct AnswerOptions {
-  Precision precision = Precision::in_double;
   SolverKind solver = SolverKind::automatic;
   SubalgorithmKind subalgorithm = SubalgorithmKind::projection;  ///< for distances
   double tolerance = 1e-10;  ///< of signed distances, relative to the shapes' sizes
@@ -42,14 +39,7 @@ struct Answer {
 
 Answer answer(const Query& query, const AnswerOptions& options);
 
-/// Lists the errors of the answer: empty if it is as expected. In float, `float_allowance` is
-/// added to the tolerances of a case, which are meant for double.
-std::vector<std::string> complaints(const Query& query, const AnswerFacts& facts,
-                                    Precision precision);
-
-/// Tolerance between the exact answer and one in float, for the rounding of the query's own
-/// numbers: in lengths, float_roundings machine epsilons of the largest coordinate; in t that,
-/// divided by the speed against the surface; in the normal, as an angle, its square root.
-inline constexpr double float_roundings = 8;
+/// Lists the errors of the answer: empty if it is as expected.
+std::vector<std::string> complaints(const Query& query, const AnswerFacts& facts);
 
 }  // namespace minkray

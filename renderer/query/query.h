@@ -14,15 +14,15 @@ namespace minkray {
 
 /// Query for where a ray enters a shape.
 struct RayQuery {
-  Shape<double> shape;
+  Shape shape;
   Ray<double> ray;
 };
 
 /// When the moving shape first touches the obstacle. Each is moved by t times its direction and, if
 /// it has a turn, turned by t times that (a rotation vector, radians) about its frame's origin.
 struct ShapeQuery {
-  Shape<double> moving;
-  Shape<double> obstacle;
+  Shape moving;
+  Shape obstacle;
   Vec3<double> direction = Vec3<double>::Zero();
   Vec3<double> obstacle_direction = Vec3<double>::Zero();
   Vec3<double> turn = Vec3<double>::Zero();
@@ -35,22 +35,22 @@ struct ShapeQuery {
 
 /// Query for the distance of two shapes.
 struct DistanceQuery {
-  Shape<double> a;
-  Shape<double> b;
+  Shape a;
+  Shape b;
 };
 
 /// Query for the signed distance of two shapes (core/pair_distance/signed_distance.h).
 struct SignedDistanceQuery {
-  Shape<double> a;
-  Shape<double> b;
+  Shape a;
+  Shape b;
   double at_most = std::numeric_limits<double>::infinity();
   bool only_sign = false;
 };
 
 /// Up to four points of contact (core/pair_distance/manifold.h).
 struct ManifoldQuery {
-  Shape<double> a;
-  Shape<double> b;
+  Shape a;
+  Shape b;
   std::optional<double> tilt;    ///< radians
   std::optional<double> within;  ///< in sizes of the smaller shape
 };
@@ -64,8 +64,8 @@ struct ImpactMotion {
 
 /// When two shapes that move and turn first touch, with proof (core/pair_motion/impact.h).
 struct ImpactQuery {
-  Shape<double> a;
-  Shape<double> b;
+  Shape a;
+  Shape b;
   ImpactMotion motion_a;
   ImpactMotion motion_b;
   double t_max = 0;

@@ -18,7 +18,7 @@ class QueryReader {
  public:
   QueryReader(ObjectReader& object, MeshFiles& meshes) : object_(object), meshes_(meshes) {}
 
-  std::optional<Shape<double>> shape(std::string_view key) {
+  std::optional<Shape> shape(std::string_view key) {
     const Json* json = object_.require(key, "a shape");
     if (!json) return std::nullopt;
     return read_shape(*json, object_.path(key), object_.mistakes(), meshes_);
@@ -49,7 +49,7 @@ class QueryReader {
 
   void read_ray(std::optional<Query>& query) {
     const auto what = shape("shape");
-    RayQuery read{Point<double>{}, {Vec3<double>::Zero(), Vec3<double>::Zero()}};
+    RayQuery read{Point{}, {Vec3<double>::Zero(), Vec3<double>::Zero()}};
     if (const Json* json = object_.require("ray", "an object")) {
       ObjectReader ray(*json, object_.path("ray"), object_.mistakes());
       vector(ray, "origin", read.ray.origin, true);
@@ -64,7 +64,7 @@ class QueryReader {
 
   void read_shapes(std::optional<Query>& query) {
     const auto moving = shape("moving"), obstacle = shape("obstacle");
-    ShapeQuery read{Point<double>{}, Point<double>{}};
+    ShapeQuery read{Point{}, Point{}};
     vector(object_, "direction", read.direction, true);
     vector(object_, "obstacle_direction", read.obstacle_direction, false);
     vector(object_, "turn", read.turn, false);
@@ -89,7 +89,7 @@ class QueryReader {
 
   void read_signed_distance(std::optional<Query>& query) {
     const auto a = shape("a"), b = shape("b");
-    SignedDistanceQuery read{Point<double>{}, Point<double>{}};
+    SignedDistanceQuery read{Point{}, Point{}};
     if (const Json* json = object_.find("at_most"))
       if (const auto number =
               read_number(*json, object_.path("at_most"), object_.mistakes(), Range::any))
@@ -105,7 +105,7 @@ class QueryReader {
 
   void read_manifold(std::optional<Query>& query) {
     const auto a = shape("a"), b = shape("b");
-    ManifoldQuery read{Point<double>{}, Point<double>{}, {}, {}};
+    ManifoldQuery read{Point{}, Point{}, {}, {}};
     const auto number = [&](std::string_view key, std::optional<double>& value) {
       if (const Json* json = object_.find(key))
         value = read_number(*json, object_.path(key), object_.mistakes(), Range::not_negative);
@@ -136,7 +136,7 @@ class QueryReader {
 
   void read_impact(std::optional<Query>& query) {
     const auto a = shape("a"), b = shape("b");
-    ImpactQuery read{Point<double>{}, Point<double>{}, motion("motion_a"), motion("motion_b")};
+    ImpactQuery read{Point{}, Point{}, motion("motion_a"), motion("motion_b")};
     if (object_.require("t_max", "a number")) t_max(object_, read.t_max);
     if (!a || !b) return;
     read.a = *a;
@@ -181,7 +181,7 @@ std::optional<Query> parse_query(std::string_view text, MeshFiles& meshes, Mista
   ObjectReader object(*json, JsonPath(), mistakes);
   if (!object.is_object()) return std::nullopt;
 
-  std::optional<Query> query(Query{{}, DistanceQuery{Point<double>{}, Point<double>{}}, {}});
+  std::optional<Query> query(Query{{}, DistanceQuery{Point{}, Point{}}, {}});
   // Descriptive keys of a published case and its proof (tests/cases).
   object.allow({"was", "source", "numbers", "certificate"});
   if (const Json* name = object.find("name"))

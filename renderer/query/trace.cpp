@@ -5,26 +5,24 @@
 
 namespace minkray {
 
-template <class T>
-CastTrace<T> trace_ray(const PreparedShape<T>& shape, const Ray<T>& ray,
-                       const CastOptions<T>& options) {
-  CastTrace<T> trace{shape.to_inner(ray), shape.inner_ball(), {}, {}};
-  ClippedRay<T> clipped(trace.ray);
-  trace.result = cast_ray<T>(shape, ray, options, [&](const CastIteration<T>& step) {
-    const Clip<T> clip = clipped.clip(step.v, step.p);
+CastTrace trace_ray(const PreparedShape& shape, const Ray<double>& ray,
+                    const CastOptions& options) {
+  CastTrace trace{shape.to_inner(ray), shape.inner_ball(), {}, {}};
+  ClippedRay<double> clipped(trace.ray);
+  trace.result = cast_ray(shape, ray, options, [&](const CastIteration<double>& step) {
+    const Clip<double> clip = clipped.clip(step.v, step.p);
     trace.iterations.push_back({step.lambda, step.x, step.v, step.p, step.w,
-                                std::vector<Vec3<T>>(step.simplex.begin(), step.simplex.end()),
+                                std::vector<Vec3<double>>(step.simplex.begin(), step.simplex.end()),
                                 clip, clipped.lower(), clipped.upper()});
   });
   return trace;
 }
 
-template <class T>
-Json trace_json(const CastTrace<T>& trace) {
+Json trace_json(const CastTrace& trace) {
   Json list = Json::array();
-  for (const TracedIteration<T>& step : trace.iterations) {
+  for (const TracedIteration& step : trace.iterations) {
     Json simplex = Json::array();
-    for (const Vec3<T>& p : step.simplex) simplex.push_back(point_json(p));
+    for (const Vec3<double>& p : step.simplex) simplex.push_back(point_json(p));
     list.push_back({{"lambda", number_json(step.lambda)},
                     {"t", number_json(trace.t(step.lambda))},
                     {"x", point_json(step.x)},
@@ -39,12 +37,5 @@ Json trace_json(const CastTrace<T>& trace) {
   }
   return list;
 }
-
-#define MINKRAY_INSTANTIATE(T)                                                                    \
-  template CastTrace<T> trace_ray(const PreparedShape<T>&, const Ray<T>&, const CastOptions<T>&); \
-  template Json trace_json(const CastTrace<T>&);
-MINKRAY_INSTANTIATE(float)
-MINKRAY_INSTANTIATE(double)
-#undef MINKRAY_INSTANTIATE
 
 }  // namespace minkray

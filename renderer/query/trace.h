@@ -11,33 +11,28 @@
 namespace minkray {
 
 /// One iteration, copied; in the letters and the frame of CastIteration.
-template <class T>
 struct TracedIteration {
-  T lambda;
-  Vec3<T> x, v, p, w;
-  std::vector<Vec3<T>> simplex;
-  Clip<T> clip;
-  T lower, upper;  ///< bounds of lambda so far, from all planes together
+  double lambda;
+  Vec3<double> x, v, p, w;
+  std::vector<Vec3<double>> simplex;
+  Clip<double> clip;
+  double lower, upper;  ///< bounds of lambda so far, from all planes together
 };
 
-template <class T>
 struct CastTrace {
-  RayNearBall<T> ray;  ///< in the inner frame, relative to the ball's centre
-  Ball<T> ball;
-  std::vector<TracedIteration<T>> iterations;
-  CastResult<T> result;
+  RayNearBall<double> ray;  ///< in the inner frame, relative to the ball's centre
+  Ball<double> ball;
+  std::vector<TracedIteration> iterations;
+  CastResult<double> result;
 
   /// The ray's own parameter at lambda.
-  double t(T lambda) const { return double(ray.t_base) + double(ray.t_offset(lambda)); }
+  double t(double lambda) const { return double(ray.t_base) + double(ray.t_offset(lambda)); }
 };
 
 /// Casts and keeps every iteration.
-template <class T>
-CastTrace<T> trace_ray(const PreparedShape<T>& shape, const Ray<T>& ray,
-                       const CastOptions<T>& options);
+CastTrace trace_ray(const PreparedShape& shape, const Ray<double>& ray, const CastOptions& options);
 
 /// The iterations as a list of objects.
-template <class T>
-Json trace_json(const CastTrace<T>& trace);
+Json trace_json(const CastTrace& trace);
 
 }  // namespace minkray

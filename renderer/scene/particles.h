@@ -35,7 +35,7 @@ inline constexpr ParticleColumnDescription particle_columns[] = {
 /// scale or scales, those of them that there are.
 struct ParticleSet {
   std::string name;
-  Shape<double> shape = Point<double>{};
+  Shape shape = Point{};
   std::vector<std::uint32_t> materials;  ///< indices into Scene::materials, at least one
   bool has_rotation = false;
   std::size_t scale_numbers = 0;  ///< 0, 1 or 3

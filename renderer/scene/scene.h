@@ -26,7 +26,6 @@
 
 namespace minkray {
 
-template <class T>
 class ShapeDefinition;
 class TriangleMesh;
 struct MeshAttributes;
@@ -41,7 +40,7 @@ struct MeshLook {
 
 struct Object {
   std::string name;
-  Shape<double> shape = Point<double>();
+  Shape shape = Point();
   Affine<double> pose;                ///< from the shape's frame to the world
   std::uint32_t material = 0;         ///< index into Scene::materials
   std::optional<Motion> motion = {};  ///< `pose` is what it is at the scene's time
@@ -50,8 +49,8 @@ struct Object {
       {};                                         ///< if there is one it is that, not `shape`
   std::shared_ptr<const TriangleMesh> mesh = {};  ///< the same
   RayKinds visible_to = all_ray_kinds;  ///< and to no rays that its material is not visible to
-  std::shared_ptr<const ShapeDefinition<double>> definition = {};  ///< of the shape, if shared
-  std::shared_ptr<const MeshLook> look = {};                       ///< of the mesh, if it has one
+  std::shared_ptr<const ShapeDefinition> definition = {};  ///< of the shape, if shared
+  std::shared_ptr<const MeshLook> look = {};               ///< of the mesh, if it has one
 
   /// Neither a half-space nor a mesh.
   bool has_shape() const { return !half_space && !mesh; }

@@ -15,11 +15,11 @@ namespace {
 class Counter {
  public:
   Counter() {
-    for_each_shape_kind<double>([&]<class S>() { kinds_.push_back({S::name}); });
+    for_each_shape_kind([&]<class S>() { kinds_.push_back({S::name}); });
   }
 
   /// `times`: how often it is posed; its operands are there once.
-  void add(const Shape<double>& shape, bool is_operand, std::size_t times = 1) {
+  void add(const Shape& shape, bool is_operand, std::size_t times = 1) {
     KindCount& count = kinds_[shape.kind.index()];
     (is_operand ? count.operands : count.objects) += times;
     if (is_operand) bytes += sizeof(shape);
@@ -42,12 +42,12 @@ class Counter {
   std::size_t bytes = 0;
 
  private:
-  void add_member(const Nested<double>& operand) { add(*operand, true); }
-  void add_member(const ShapeList<double>& operands) {
-    bytes += operands.size() * sizeof(Nested<double>);
-    for (const Nested<double>& operand : operands) add(*operand, true);
+  void add_member(const Nested& operand) { add(*operand, true); }
+  void add_member(const ShapeList& operands) {
+    bytes += operands.size() * sizeof(Nested);
+    for (const Nested& operand : operands) add(*operand, true);
   }
-  void add_member(const PointCloud<double>& cloud) {
+  void add_member(const PointCloud& cloud) {
     hull_points += cloud.points().size();
     bytes += cloud.points().size() * sizeof(Vec3<double>);
   }
@@ -62,14 +62,14 @@ class Counter {
 
 Bounds<double> bounds_of(const Object& object) {
   if (object.mesh) return PosedMesh(0, object.mesh, object.pose).bounds();
-  return bounds_of<double>(Transform<double>{Nested<double>(object.shape), object.pose});
+  return bounds_of(Transform{Nested(object.shape), object.pose});
 }
 
 Bounds<double> bounds_of(const ParticleSet& set) {
   return parallel_reduce<Bounds<double>>(
       0, set.size(),
       [&](Bounds<double>& bounds, std::size_t i) {
-        bounds.extend(bounds_of<double>(Transform<double>{Nested<double>(set.shape), set.pose(i)}));
+        bounds.extend(bounds_of(Transform{Nested(set.shape), set.pose(i)}));
       },
       [](Bounds<double>& bounds, const Bounds<double>& of_range) { bounds.extend(of_range); });
 }

@@ -157,7 +157,7 @@ void ObjectsReader::read_object(const Json& json, const JsonPath& path, const Fr
   ObjectReader object(json, path, mistakes_);
   if (!object.is_object()) return;
   const std::string name = read_name_of(object, json, frame);
-  std::vector<Shape<double>> shapes;
+  std::vector<Shape> shapes;
   std::optional<HalfSpaceBody<double>> half_space;
   const Json* const split = object.find("split");
   SceneMesh mesh;
@@ -192,7 +192,7 @@ void ObjectsReader::read_object(const Json& json, const JsonPath& path, const Fr
   if (frame.is_posed && (!pose.translation.allFinite() || !pose.linear.allFinite() ||
                          !inverse_of(pose.linear).allFinite()))
     mistakes_.add(path, "must have size and position within the range of numbers");
-  Object made{name, Point<double>(), pose, material, std::move(motion)};
+  Object made{name, Point(), pose, material, std::move(motion)};
   made.half_space = half_space;
   made.visible_to = visible_to;
   made.mesh = mesh.mesh;

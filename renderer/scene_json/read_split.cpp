@@ -5,8 +5,8 @@
 
 namespace minkray {
 
-std::optional<std::vector<Shape<double>>> read_split_hulls(ObjectReader& object, const Json& split,
-                                                           const Json& shape, MeshFiles& meshes) {
+std::optional<std::vector<Shape>> read_split_hulls(ObjectReader& object, const Json& split,
+                                                   const Json& shape, MeshFiles& meshes) {
   Mistakes& mistakes = object.mistakes();
   const JsonPath split_path = object.path("split"), shape_path = object.path("shape");
   const auto written = read_string(split, split_path, mistakes);
@@ -24,8 +24,7 @@ std::optional<std::vector<Shape<double>>> read_split_hulls(ObjectReader& object,
   }
   const Json* type = shape.is_object() ? shape.find("type") : nullptr;
   const Json* file = shape.is_object() ? shape.find("file") : nullptr;
-  if (!type || !type->is_string() || type->text() != Hull<double>::name || !file ||
-      shape.size() != 2) {
+  if (!type || !type->is_string() || type->text() != Hull::name || !file || shape.size() != 2) {
     mistakes.add(split_path, "needs a shape {\"type\": \"hull\", \"file\": ...}");
     return std::nullopt;
   }
@@ -33,8 +32,8 @@ std::optional<std::vector<Shape<double>>> read_split_hulls(ObjectReader& object,
   const auto parts =
       name ? meshes.read_parts(*name, *how, shape_path / "file", mistakes) : std::nullopt;
   if (!parts) return std::nullopt;
-  std::vector<Shape<double>> hulls;
-  for (const PointCloud<double>& part : *parts) hulls.emplace_back(Hull<double>{part});
+  std::vector<Shape> hulls;
+  for (const PointCloud& part : *parts) hulls.emplace_back(Hull{part});
   return hulls;
 }
 

@@ -23,7 +23,7 @@ inline constexpr std::array mesh_split_names = {MeshSplitName{"groups", MeshSpli
 
 /// One hull a part of the mesh file that the object's shape names. Nothing, and mistakes, if
 /// anything is wrong.
-std::optional<std::vector<Shape<double>>> read_split_hulls(ObjectReader& object, const Json& split,
-                                                           const Json& shape, MeshFiles& meshes);
+std::optional<std::vector<Shape>> read_split_hulls(ObjectReader& object, const Json& split,
+                                                   const Json& shape, MeshFiles& meshes);
 
 }  // namespace minkray

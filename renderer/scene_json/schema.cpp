@@ -293,11 +293,11 @@ Json scene_schema() {
   definitions["particles"] = std::move(particles);
   definitions["transform"] =
       described_object(object_schema("Pose of an object."), [](Json& transform) {
-        const auto pose = describe(Parameter(), Member<AffineMap<double>>());
+        const auto pose = describe(Parameter(), Member<AffineMap>());
         transform["properties"] = pose.properties;
         transform["allOf"] = pose.allowed;
       });
-  definitions["shape"] = tagged_schema<ShapeVariant<double>>(
+  definitions["shape"] = tagged_schema<ShapeVariant>(
       "A convex shape.", []<class S>(Json& shape) { allow_list_of_operands<S>(shape); });
   return schema;
 }

@@ -22,7 +22,7 @@ Json tagged(const S& described) {
 
 Json pose_json(const Affine<double>& pose) {
   Json json;
-  write_member(json, "matrix", AffineMap<double>(pose));
+  write_member(json, "matrix", AffineMap(pose));
   return json;
 }
 

@@ -37,7 +37,7 @@ double longest_way(const Motion& motion, double begin, double end, double reach)
 }
 
 /// Box that contains the body during the whole interval.
-Bounds<float> swept_box(const ShapeDefinition<double>& shape, const Motion& motion, double begin,
+Bounds<float> swept_box(const ShapeDefinition& shape, const Motion& motion, double begin,
                         double end) {
   Bounds<double> box = shape.bounds_of(motion.pose_at(begin));
   const Vec3<double> pivot = motion.translation_at(begin);
@@ -70,10 +70,9 @@ MovingScene::MovingScene(const Scene& scene) : scene_(scene) {
     const Object& object = scene.objects[i];
     if (object.motion) {
       place_.push_back(static_cast<std::uint32_t>(movers_.size()));
-      movers_.push_back({static_cast<std::uint32_t>(i),
-                         !object.has_shape()
-                             ? nullptr
-                             : std::make_shared<const ShapeDefinition<double>>(object.shape)});
+      movers_.push_back(
+          {static_cast<std::uint32_t>(i),
+           !object.has_shape() ? nullptr : std::make_shared<const ShapeDefinition>(object.shape)});
       continue;
     }
     place_.push_back(static_cast<std::uint32_t>(instances.size()));
@@ -119,8 +118,8 @@ bool SceneWhile::is_half_space(std::uint32_t instance) const {
   return instance < objects.size() && objects[instance].half_space.has_value();
 }
 
-PreparedShape<double> SceneWhile::mover_at(std::size_t mover, double time) {
-  const ShapeDefinition<double>& definition = *scene_.movers_[mover].definition;
+PreparedShape SceneWhile::mover_at(std::size_t mover, double time) {
+  const ShapeDefinition& definition = *scene_.movers_[mover].definition;
   Placed& placed = placed_[mover];
   if (!placed.is_known || placed.time != time) {
     const Object& object = scene_.scene_.objects[scene_.movers_[mover].object];

@@ -26,7 +26,7 @@ class MovingScene {
   friend class SceneWhile;
   struct Mover {
     std::uint32_t object = 0;
-    std::shared_ptr<const ShapeDefinition<double>> definition;  ///< null: the body has no shape
+    std::shared_ptr<const ShapeDefinition> definition;  ///< null: the body has no shape
   };
 
   /// Number in still_ of an instance at rest.
@@ -64,10 +64,10 @@ class SceneWhile {
   struct Placed {
     double time = 0;
     bool is_known = false;
-    ShapeDefinition<double>::Placement placement;
+    ShapeDefinition::Placement placement;
   };
   bool moves(std::uint32_t instance) const;
-  PreparedShape<double> mover_at(std::size_t mover, double time);
+  PreparedShape mover_at(std::size_t mover, double time);
   void meet_movers(const WorldRay& ray, double time, WorldHit& closest, QueryCounts& counts);
 
   const MovingScene& scene_;

@@ -58,7 +58,7 @@ CallProgram::HeldScene* CallProgram::model_of(minkray_scene scene) {
 Given<const minkray_pose*> CallProgram::pose(bool required) {
   minkray_pose& pose = pose_[next_pose_ ^= 1];
   if (bytes_.below(3) == 0) return {nullptr, right_if(!required)};
-  const Affine<double> map = map_from<double>(bytes_, wild_);
+  const Affine<double> map = map_from(bytes_, wild_);
   for (int i = 0; i < 3; ++i) {
     for (int j = 0; j < 3; ++j) pose.rows[i][j] = map.linear(i, j);
     pose.rows[i][3] = map.translation[i];

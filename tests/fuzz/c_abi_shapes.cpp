@@ -25,13 +25,13 @@ struct Kind {
 template <class Member>
 ParameterSize size_of(std::string_view name) {
   ParameterSize size{std::string(name)};
-  if constexpr (std::is_same_v<Member, Nested<double>>)
+  if constexpr (std::is_same_v<Member, Nested>)
     size.shapes = 1;
-  else if constexpr (std::is_same_v<Member, ShapeList<double>>)
+  else if constexpr (std::is_same_v<Member, ShapeList>)
     size.shapes = 2;
-  else if constexpr (std::is_same_v<Member, AffineMap<double>>)
+  else if constexpr (std::is_same_v<Member, AffineMap>)
     size.numbers = 12;
-  else if constexpr (std::is_same_v<Member, PointCloud<double>>)
+  else if constexpr (std::is_same_v<Member, PointCloud>)
     size.numbers = 15;
   else
     size.numbers = sizeof(Member) / sizeof(double);
@@ -40,7 +40,7 @@ ParameterSize size_of(std::string_view name) {
 
 std::vector<Kind> all_kinds() {
   std::vector<Kind> kinds;
-  for_each_alternative(std::type_identity<ShapeVariant<double>>(), [&]<class S>() {
+  for_each_alternative(std::type_identity<ShapeVariant>(), [&]<class S>() {
     Kind& kind = kinds.emplace_back();
     kind.name = S::name;
     for_each_field<S>([&](const auto& field) {
@@ -135,7 +135,7 @@ void CallProgram::make_shape() {
 }
 
 void CallProgram::read_shape() {
-  std::string text = minkray::write_shape(shape_from<double>(bytes_, wild_)).dump();
+  std::string text = minkray::write_shape(shape_from(bytes_, wild_)).dump();
   // Infinite numbers are null in a text, and of wild ones some do not make a shape.
   Sure sure = wild_ ? Sure::either : Sure::right;
   if (hostile()) {

@@ -27,14 +27,12 @@ std::string number(Real x) {
 
 }  // namespace
 
-template <class T>
-CastReferee<T>::CastReferee(const Shape<T>& shape, const Ray<T>& ray)
-    : shape_(convert<Real>(shape)) {
+CastReferee::CastReferee(const Shape& shape, const Ray<double>& ray) : shape_(shape) {
   const Bounds<Real> bounds = bounds_of<Real>(shape_);
   const Extent extent = extent_of(shape);
   centre_ = bounds.centre();
   radius_ = 1.001L * bounds.half_extents().norm();
-  direction_ = ray.direction.template cast<Real>();
+  direction_ = ray.direction.cast<Real>();
   speed_ = direction_.norm();
   t_max_ = ray.t_max;
 
@@ -50,7 +48,7 @@ CastReferee<T>::CastReferee(const Shape<T>& shape, const Ray<T>& ray)
   t_closest_ = speed_ > 0 ? static_cast<Real>(-along / squared) : 0;
   closest_ = at(t_closest_, 0);
 
-  using Limits = std::numeric_limits<T>;
+  using Limits = std::numeric_limits<double>;
   epsilon_ = Limits::epsilon();
   // Parameters in steps of the least number, too.
   const Real least = Real(Limits::denorm_min()) * (1 + speed_) * 64;
@@ -68,8 +66,7 @@ CastReferee<T>::CastReferee(const Shape<T>& shape, const Ray<T>& ray)
                        extent.size * epsilon_ / speed_ > fewest && distance < 1e18L * extent.size));
 }
 
-template <class T>
-Vec3<Real> CastReferee<T>::at(Real t_base, Real t_offset) const {
+Vec3<Real> CastReferee::at(Real t_base, Real t_offset) const {
   Vec3<Real> x;
   for (int i = 0; i < 3; ++i) {
     const auto k = static_cast<std::size_t>(i);
@@ -79,16 +76,14 @@ Vec3<Real> CastReferee<T>::at(Real t_base, Real t_offset) const {
   return x;
 }
 
-template <class T>
-std::string CastReferee<T>::kept_off(const Claim& claim, const Vec3<Real>& n) const {
+std::string CastReferee::kept_off(const Claim& claim, const Vec3<Real>& n) const {
   const Real gap = n.dot(claim.x) - height(n);
   if (!(gap > rounding_)) return "";
   return "the point found (" + claim.by + ") lies " + number(gap) + " outside (allowed " +
          number(rounding_) + ")";
 }
 
-template <class T>
-std::string CastReferee<T>::check_miss(const Vec3<Real>& n) const {
+std::string CastReferee::check_miss(const Vec3<Real>& n) const {
   // The part of the line in the ball, as lengths from the closest point.
   const Real squared = radius_ * radius_ - closest_.squaredNorm();
   Real low = -t_closest_ * speed_, high = (t_max_ - t_closest_) * speed_;
@@ -113,9 +108,8 @@ std::string CastReferee<T>::check_miss(const Vec3<Real>& n) const {
   return "";
 }
 
-template <class T>
-std::string CastReferee<T>::check(std::string_view solver, const CastResult<T>& result) {
-  const Vec3<Real> n = result.normal.template cast<Real>();
+std::string CastReferee::check(std::string_view solver, const CastResult<double>& result) {
+  const Vec3<Real> n = result.normal.cast<Real>();
   if (result.supports < 0 || result.supports > most_supports)
     return "supports: " + std::to_string(result.supports);
   if (result.iterations < 0 || result.iterations > most_supports)
@@ -153,11 +147,10 @@ std::string CastReferee<T>::check(std::string_view solver, const CastResult<T>& 
   return "";
 }
 
-template <class T>
-std::string CastReferee<T>::check_exit(std::string_view solver, const CastResult<T>& entry,
-                                       const CastResult<T>& exit) {
+std::string CastReferee::check_exit(std::string_view solver, const CastResult<double>& entry,
+                                    const CastResult<double>& exit) {
   if (!in_range_ || exit.status != Status::hit) return "";
-  const Vec3<Real> n = exit.normal.template cast<Real>();
+  const Vec3<Real> n = exit.normal.cast<Real>();
   if (!n.allFinite() || !std::isfinite(exit.t_base) || !std::isfinite(exit.t_offset))
     return "an exit that is not finite";
   planes_.push_back(n);
@@ -172,15 +165,14 @@ std::string CastReferee<T>::check_exit(std::string_view solver, const CastResult
   const Vec3<Real> first = at(entry.t_base, entry.t_offset);
   // Entry and exit in order, as distances between planes.
   const Real back = (first - x).dot(direction_ / speed_);
-  const Real shallow = std::min(std::abs(n.dot(direction_)),
-                                std::abs(entry.normal.template cast<Real>().dot(direction_))) /
-                       speed_;
+  const Real shallow =
+      std::min(std::abs(n.dot(direction_)), std::abs(entry.normal.cast<Real>().dot(direction_))) /
+      speed_;
   if (back * shallow > 2 * rounding_) return "the ray leaves before it enters";
   return "";
 }
 
-template <class T>
-std::string CastReferee<T>::check_claimed() {
+std::string CastReferee::check_claimed() {
   for (const Claim& claim : claimed_) {
     const Vec3<Real>& x = claim.x;
     for (const Vec3<Real>& n : planes_)
@@ -199,8 +191,5 @@ std::string CastReferee<T>::check_claimed() {
   }
   return "";
 }
-
-template class CastReferee<float>;
-template class CastReferee<double>;
 
 }  // namespace minkray::fuzz

@@ -7,7 +7,6 @@
 #include <string_view>
 #include <vector>
 
-#include "core/derived/convert.h"
 #include "core/math/ray.h"
 #include "core/query/result.h"
 #include "tests/fuzz/extent.h"
@@ -23,11 +22,10 @@ __extension__ using Quad = __float128;
 /// - a hit lies on a supporting plane that faces the ray: the ray does not enter the shape before;
 /// - a hit, and an origin that is inside, lie in the shape: no separating plane is found;
 /// - nothing is NaN, the normal has unit length, t is in [0, t_max], the bounds are in order.
-template <class T>
 class CastReferee {
  public:
   /// The shape as it lies in the ray's frame.
-  CastReferee(const Shape<T>& shape, const Ray<T>& ray);
+  CastReferee(const Shape& shape, const Ray<double>& ray);
 
   /// True if the numbers of the result are in T's range at all: t is distance over speed.
   bool in_range() const { return in_range_; }
@@ -35,9 +33,9 @@ class CastReferee {
   double rounding() const { return static_cast<double>(rounding_); }
 
   /// Description of an error in the result; empty if there is none. Stores its plane.
-  std::string check(std::string_view solver, const CastResult<T>& result);
-  std::string check_exit(std::string_view solver, const CastResult<T>& entry,
-                         const CastResult<T>& exit);
+  std::string check(std::string_view solver, const CastResult<double>& result);
+  std::string check_exit(std::string_view solver, const CastResult<double>& entry,
+                         const CastResult<double>& exit);
 
   /// Checks that no plane separates a point that is claimed to be in the shape: those that were
   /// stored, and those that a search of our own finds.
@@ -55,7 +53,7 @@ class CastReferee {
   std::string check_miss(const Vec3<Real>& n) const;
   std::string kept_off(const Claim& claim, const Vec3<Real>& n) const;
 
-  Shape<Real> shape_;
+  Shape shape_;
   Vec3<Real> centre_;
   Vec3<Real> direction_;
   std::array<Quad, 3> from_centre_;  ///< the ray's origin
@@ -67,8 +65,5 @@ class CastReferee {
   std::vector<Vec3<Real>> planes_;
   std::vector<Claim> claimed_;
 };
-
-extern template class CastReferee<float>;
-extern template class CastReferee<double>;
 
 }  // namespace minkray::fuzz

@@ -23,8 +23,7 @@ bool same_bits(const A& a, const A& b) {
 
 /// Compares a lane of the packet with the result of cast_ray: empty if they are the same, bit for
 /// bit.
-template <class T>
-std::string compare(const CastResult<T>& one, const CastResult<T>& lane) {
+std::string compare(const CastResult<double>& one, const CastResult<double>& lane) {
   if (one.status != lane.status)
     return "status " + std::string(name_of(lane.status)) + " instead of " +
            std::string(name_of(one.status));
@@ -37,7 +36,7 @@ std::string compare(const CastResult<T>& one, const CastResult<T>& lane) {
   for (int i = 0; i < 3; ++i) same_normal &= same_bits(one.normal[i], lane.normal[i]);
   if (!same_t) return "another t";
   std::ostringstream normals;
-  normals.precision(std::numeric_limits<T>::max_digits10);
+  normals.precision(std::numeric_limits<double>::max_digits10);
   normals << "another normal (" << name_of(one.status) << "): " << lane.normal.transpose()
           << " instead of " << one.normal.transpose();
   if (!same_normal) return normals.str();
@@ -47,26 +46,23 @@ std::string compare(const CastResult<T>& one, const CastResult<T>& lane) {
 }
 
 /// The line to give to `minkray cast`.
-template <class T>
-std::string as_query(const Shape<T>& shape, const Ray<T>& ray) {
-  const auto list = [](const Vec3<T>& v) {
+std::string as_query(const Shape& shape, const Ray<double>& ray) {
+  const auto list = [](const Vec3<double>& v) {
     return Json::array({double(v.x()), double(v.y()), double(v.z())});
   };
   Json json = {{"query", "ray"},
-               {"shape", write_shape(convert<double>(shape))},
+               {"shape", write_shape(shape)},
                {"ray", {{"origin", list(ray.origin)}, {"direction", list(ray.direction)}}}};
   if (std::isfinite(ray.t_max)) json["ray"]["t_max"] = double(ray.t_max);
   return json.dump();
 }
 
-template <class T>
-std::string check_packets(const PreparedShape<T>& prepared, const RayPacket<T>& rays,
-                          LaneBits lanes) {
+std::string check_packets(const PreparedShape& prepared, const RayPacket& rays, LaneBits lanes) {
   for (const InstructionSet set : {InstructionSet::sse2, InstructionSet::avx2}) {
     if (set > best_instruction_set()) continue;
-    CastPacket<T> answers{};
+    CastPacket answers{};
     cast_packet(prepared, rays, lanes, answers, set);
-    for (int lane = 0; lane < packet_lanes<T>; ++lane) {
+    for (int lane = 0; lane < packet_lanes; ++lane) {
       if (!(lanes & (LaneBits(1) << lane))) continue;
       const std::string bad = compare(cast_ray(prepared, rays.ray(lane)), answers.result(lane));
       if (!bad.empty())
@@ -79,16 +75,15 @@ std::string check_packets(const PreparedShape<T>& prepared, const RayPacket<T>& 
 
 /// Checks that the result's certificate holds, if it is allowed `rounding`, and that one of a hit
 /// that is claimed too early does not.
-template <class T>
-std::string check_proof(const Shape<T>& shape, const Ray<T>& ray, const CastResult<T>& result,
-                        double rounding) {
+std::string check_proof(const Shape& shape, const Ray<double>& ray,
+                        const CastResult<double>& result, double rounding) {
   if (result.status == Status::exhausted) return "";
-  const Shape<double> same = convert<double>(shape);
-  const Ray<double> same_ray{ray.origin.template cast<double>(),
-                             ray.direction.template cast<double>(), double(ray.t_max)};
+  const Shape same = shape;
+  const Ray<double> same_ray{ray.origin.cast<double>(), ray.direction.cast<double>(),
+                             double(ray.t_max)};
   const SupportFunction support = supports_of(same);
   if (near_segment(support, same_ray).is_too_far) return "";
-  const Bounds<double> bounds = bounds_of<double>(same);
+  const Bounds<double> bounds = bounds_of(same);
   const double size = bounds.centre().norm() + bounds.half_extents().norm();
   Claim claim = claim_of(result);
   if (size > 0) claim.epsilon = std::max(claim.epsilon, rounding / (certificate_rounding * size));
@@ -104,17 +99,15 @@ std::string check_proof(const Shape<T>& shape, const Ray<T>& ray, const CastResu
   return "";
 }
 
-template <class T>
-std::string check_ray(const Shape<T>& shape, const PreparedShape<T>& prepared, const Ray<T>& ray) {
-  CastReferee<T> referee(shape, ray);
+std::string check_ray(const Shape& shape, const PreparedShape& prepared, const Ray<double>& ray) {
+  CastReferee referee(shape, ray);
   const auto complaint = [&](std::string_view who, const std::string& bad) {
-    return std::string(sizeof(T) == 4 ? "float" : "double") + ", solver " + std::string(who) +
-           ": " + bad + "\n" + as_query(shape, ray);
+    return "solver " + std::string(who) + ": " + bad + "\n" + as_query(shape, ray);
   };
   for (const SolverDescription& solver : testing::accurate_solvers()) {
-    CastOptions<T> options;
+    CastOptions options;
     options.solver = solver.kind;
-    const CastResult<T> result = cast_ray(prepared, ray, options);
+    const CastResult<double> result = cast_ray(prepared, ray, options);
     if (const std::string bad = referee.check(solver.name, result); !bad.empty())
       return complaint(solver.name, bad);
     // At extreme proportions casts prove their own results, in the shape's own frame.
@@ -132,21 +125,20 @@ std::string check_ray(const Shape<T>& shape, const PreparedShape<T>& prepared, c
 }
 
 /// A map and a shape, as one shape and as a pose around it: the same answers are promised.
-template <class T>
 std::string check(Bytes bytes, bool wild) {
-  const Affine<T> pose = map_from<T>(bytes, wild);
+  const Affine<double> pose = map_from(bytes, wild);
   const bool posed = bytes.below(2) == 1;
-  const Shape<T> inner = shape_from<T>(bytes, wild);
-  const Shape<T> shape = posed ? Shape<T>(Transform<T>{inner, AffineMap<T>(pose)}) : inner;
+  const Shape inner = shape_from(bytes, wild);
+  const Shape shape = posed ? Shape(Transform{inner, AffineMap(pose)}) : inner;
   // Sums of the largest may leave the range of numbers: shapes there are none.
-  const Bounds<T> bounds = bounds_of<T>(shape);
+  const Bounds<double> bounds = bounds_of(shape);
   if (!bounds.lower.allFinite() || !bounds.upper.allFinite()) return "";
-  const PreparedShape<T> prepared = posed ? PreparedShape<T>(inner, pose) : PreparedShape<T>(shape);
-  RayPacket<T> rays{};
-  const int count = 1 + bytes.below(packet_lanes<T>);
+  const PreparedShape prepared = posed ? PreparedShape(inner, pose) : PreparedShape(shape);
+  RayPacket rays{};
+  const int count = 1 + bytes.below(packet_lanes);
   LaneBits lanes = 0;
   for (int lane = 0; lane < count; ++lane) {
-    const Ray<T> ray = ray_from(bytes, shape, wild);
+    const Ray<double> ray = ray_from(bytes, shape, wild);
     if (!ray.origin.allFinite() || !ray.direction.allFinite()) continue;
     rays.set(lane, ray);
     lanes |= LaneBits(1) << lane;
@@ -154,16 +146,9 @@ std::string check(Bytes bytes, bool wild) {
   }
   const std::string bad = check_packets(prepared, rays, lanes);
   if (bad.empty()) return "";
-  std::string text = bad + (sizeof(T) == 4 ? " (float)" : " (double)");
+  std::string text = bad;
   for (int lane = 0; lane < count; ++lane) text += "\n" + as_query(shape, rays.ray(lane));
   return text;
-}
-
-template <class T>
-std::string check(const Shape<double>& shape, const Ray<double>& ray) {
-  const Shape<T> rounded = convert<T>(shape);
-  return check_ray(rounded, PreparedShape<T>(rounded),
-                   Ray<T>{ray.origin.cast<T>(), ray.direction.cast<T>(), T(ray.t_max)});
 }
 
 }  // namespace
@@ -175,15 +160,14 @@ std::string check_cast_query(std::string_view line) {
   if (!query) return mistakes.text();
   const auto* cast = std::get_if<RayQuery>(&query->kind);
   if (!cast) return "not a ray cast";
-  const std::string bad = check<double>(cast->shape, cast->ray);
-  return bad.empty() ? check<float>(cast->shape, cast->ray) : bad;
+  return check_ray(cast->shape, PreparedShape(cast->shape), cast->ray);
 }
 
 std::string check_cast(std::string_view input) {
   Bytes bytes(input);
   const unsigned kind = bytes.byte();
   const bool wild = (kind & 2) != 0;
-  return kind & 1 ? check<float>(bytes, wild) : check<double>(bytes, wild);
+  return check(bytes, wild);
 }
 
 }  // namespace minkray::fuzz

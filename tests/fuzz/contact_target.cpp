@@ -16,7 +16,7 @@ using Long = long double;
 
 /// A shape at a rigid pose.
 struct Body {
-  Shape<double> shape;
+  Shape shape;
   Affine<double> pose;
   ContactShape ready;
 
@@ -101,7 +101,7 @@ std::string check_contact(std::string_view input) {
   Bytes bytes(input);
   const auto body = [&] {
     const Affine<double> pose = rigid_from(bytes);
-    const Shape<double> shape = shape_from<double>(bytes, false, 2);
+    const Shape shape = shape_from(bytes, false, 2);
     return Body{shape, pose, ContactShape(shape)};
   };
   const Body a = body();

@@ -15,13 +15,11 @@ struct Extent {
   long double condition = 1;  ///< of the maps around and in the shape, multiplied along the nesting
 };
 
-template <class T>
-Extent extent_of(const Shape<T>& shape);
+Extent extent_of(const Shape& shape);
 
 namespace detail {
 
-template <class T>
-void add_operand(Extent& sum, const Nested<T>& operand) {
+inline void add_operand(Extent& sum, const Nested& operand) {
   const Extent extent = extent_of(*operand);
   sum.size += extent.size;
   sum.condition = std::max(sum.condition, extent.condition);
@@ -29,18 +27,16 @@ void add_operand(Extent& sum, const Nested<T>& operand) {
 
 }  // namespace detail
 
-template <class T>
-Extent under(const Affine<T>& map, const Extent& inner) {
-  const Mat3<long double> M = map.linear.template cast<long double>();
-  return {M.norm() * inner.size + map.translation.template cast<long double>().norm(),
+inline Extent under(const Affine<double>& map, const Extent& inner) {
+  const Mat3<long double> M = map.linear.cast<long double>();
+  return {M.norm() * inner.size + map.translation.cast<long double>().norm(),
           inner.condition * M.norm() * inverse_of<long double>(M).norm() / 3};
 }
 
-template <class T>
-Extent extent_of(const Shape<T>& shape) {
+inline Extent extent_of(const Shape& shape) {
   return std::visit(
       [&]<class S>(const S& kind) -> Extent {
-        if constexpr (std::is_same_v<S, Transform<T>>) {
+        if constexpr (std::is_same_v<S, Transform>) {
           return under(kind.map.affine(), extent_of(*kind.shape));
         } else {
           Extent extent;
@@ -48,17 +44,17 @@ Extent extent_of(const Shape<T>& shape) {
           for_each_field<S>([&](const auto& field) {
             using Member = typename std::decay_t<decltype(field)>::Member;
             const Member& member = kind.*(field.member);
-            if constexpr (std::is_same_v<Member, Nested<T>>) {
+            if constexpr (std::is_same_v<Member, Nested>) {
               detail::add_operand(extent, member);
               has_operands = true;
             }
-            if constexpr (std::is_same_v<Member, ShapeList<T>>) {
-              for (const Nested<T>& operand : member) detail::add_operand(extent, operand);
+            if constexpr (std::is_same_v<Member, ShapeList>) {
+              for (const Nested& operand : member) detail::add_operand(extent, operand);
               has_operands = true;
             }
           });
-          const Bounds<T> bounds = bounds_of<T>(kind);
-          const T reach =
+          const Bounds<double> bounds = bounds_of(kind);
+          const double reach =
               std::max(bounds.lower.cwiseAbs().maxCoeff(), bounds.upper.cwiseAbs().maxCoeff());
           // An operator also has its own lengths: all that its bounds have beyond its operands'.
           extent.size =

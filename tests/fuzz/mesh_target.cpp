@@ -13,7 +13,7 @@ namespace {
 std::string check_hull(const std::vector<Vec3<double>>& vertices) {
   double largest = 0;
   for (const Vec3<double>& v : vertices) largest = std::max(largest, v.cwiseAbs().maxCoeff());
-  const PointCloud<double> hull(vertices);
+  const PointCloud hull(vertices);
   if (hull.points().size() > vertices.size()) return "a hull of more points than were given";
   testing::Random random(1);
   for (int i = 0; i < 64; ++i) {

@@ -12,7 +12,7 @@ namespace {
 constexpr const char* no_folder = "no-such-folder";
 
 /// A shape that is written and read again is the same shape.
-std::string check_written(const Shape<double>& shape) {
+std::string check_written(const Shape& shape) {
   const Json written = write_shape(shape);
   Mistakes mistakes("written");
   MeshFiles meshes(no_folder);

@@ -108,28 +108,28 @@ Interval box(const V& o, const V& d, const V& half) {
   return inside;
 }
 
-Interval in(const Sphere<double>& s, const V& o, const V& d) {
+Interval in(const Sphere& s, const V& o, const V& d) {
   return ball(o, d, V::Zero(), s.radius);
 }
 
-Interval in(const Ellipsoid<double>& s, const V& o, const V& d) {
+Interval in(const Ellipsoid& s, const V& o, const V& d) {
   const V r = exact(s.radii);
   return ball(o.cwiseQuotient(r), d.cwiseQuotient(r), V::Zero(), 1);
 }
 
-Interval in(const Box<double>& s, const V& o, const V& d) {
+Interval in(const Box& s, const V& o, const V& d) {
   return box(o, d, exact(s.half_extents));
 }
 
-Interval in(const Disk<double>& s, const V& o, const V& d) {
+Interval in(const Disk& s, const V& o, const V& d) {
   return frustum(o, d, 0, s.radius, 0, s.radius);
 }
 
-Interval in(const Cylinder<double>& s, const V& o, const V& d) {
+Interval in(const Cylinder& s, const V& o, const V& d) {
   return frustum(o, d, -Long(s.half_height), s.radius, s.half_height, s.radius);
 }
 
-Interval in(const CutCylinder<double>& s, const V& o, const V& d) {
+Interval in(const CutCylinder& s, const V& o, const V& d) {
   const V below(s.lower_slope[0], s.lower_slope[1], -1),
       above(-Long(s.upper_slope[0]), -Long(s.upper_slope[1]), 1);
   const Long lowest = s.heights[0] - s.radius * std::hypot(below.x(), below.y());
@@ -139,22 +139,22 @@ Interval in(const CutCylinder<double>& s, const V& o, const V& d) {
       both(half_space(o, d, below, -Long(s.heights[0])), half_space(o, d, above, s.heights[1])));
 }
 
-Interval in(const Cone<double>& s, const V& o, const V& d) {
+Interval in(const Cone& s, const V& o, const V& d) {
   return frustum(o, d, -Long(s.half_height), s.radius, s.half_height, 0);
 }
 
-Interval in(const Frustum<double>& s, const V& o, const V& d) {
+Interval in(const Frustum& s, const V& o, const V& d) {
   return frustum(o, d, -Long(s.half_height), s.radii[0], s.half_height, s.radii[1]);
 }
 
-Interval in(const Capsule<double>& s, const V& o, const V& d) {
+Interval in(const Capsule& s, const V& o, const V& d) {
   const V top(0, 0, s.half_height);
   return either(frustum(o, d, -top.z(), s.radius, top.z(), s.radius),
                 either(ball(o, d, top, s.radius), ball(o, d, -top, s.radius)));
 }
 
 /// Two balls and the cone that touches both along circles.
-Interval in(const TaperedCapsule<double>& s, const V& o, const V& d) {
+Interval in(const TaperedCapsule& s, const V& o, const V& d) {
   const Long r0 = s.radii[0], r1 = s.radii[1], h = s.half_height;
   const V top(0, 0, h);
   const Interval lower = ball(o, d, -top, r0), upper = ball(o, d, top, r1);
@@ -164,7 +164,7 @@ Interval in(const TaperedCapsule<double>& s, const V& o, const V& d) {
                 either(lower, upper));
 }
 
-std::optional<Interval> in(const Triangle<double>& s, const V& o, const V& d) {
+std::optional<Interval> in(const Triangle& s, const V& o, const V& d) {
   const V a = exact(s.points[0]) - o, b = exact(s.points[1]) - o, c = exact(s.points[2]) - o;
   const V normal = (b - a).cross(c - a);
   const Long ab = d.dot(a.cross(b)), bc = d.dot(b.cross(c)), ca = d.dot(c.cross(a));
@@ -176,7 +176,7 @@ std::optional<Interval> in(const Triangle<double>& s, const V& o, const V& d) {
 }
 
 /// The half-spaces of the facets that Qhull found, with offsets that let every vertex in.
-std::optional<Interval> in(const Hull<double>& s, const V& o, const V& d) {
+std::optional<Interval> in(const Hull& s, const V& o, const V& d) {
   const auto& points = s.points.points();
   if (points.size() > 100) return std::nullopt;  // Qhull for every line would take too long
   const ConvexHull hull = convex_hull(points);
@@ -206,7 +206,7 @@ Long power(Long base, Long p) {
 }
 
 /// The sum of powers is convex along the line: its least by golden section, then bisection.
-Interval in(const Superellipsoid<double>& s, const V& o, const V& d) {
+Interval in(const Superellipsoid& s, const V& o, const V& d) {
   const V radii = exact(s.radii), scaled_o = o.cwiseQuotient(radii),
           scaled_d = d.cwiseQuotient(radii);
   const Long p = s.exponent;
@@ -240,13 +240,13 @@ Interval in(const Superellipsoid<double>& s, const V& o, const V& d) {
 
 /// Boxes, as the union of boxes grown along one axis, cylinders around edges and balls at corners;
 /// balls and capsules, as themselves.
-std::optional<Interval> in(const Rounded<double>& s, const V& o, const V& d) {
+std::optional<Interval> in(const Rounded& s, const V& o, const V& d) {
   const Long r = s.radius;
-  if (const auto* inner = std::get_if<Sphere<double>>(&s.shape->kind))
+  if (const auto* inner = std::get_if<Sphere>(&s.shape->kind))
     return ball(o, d, V::Zero(), inner->radius + r);
-  if (const auto* point = std::get_if<Point<double>>(&s.shape->kind))
+  if (const auto* point = std::get_if<Point>(&s.shape->kind))
     return ball(o, d, exact(point->position), r);
-  const auto* inner = std::get_if<Box<double>>(&s.shape->kind);
+  const auto* inner = std::get_if<Box>(&s.shape->kind);
   if (!inner) return std::nullopt;
   const V half = exact(inner->half_extents);
   Interval inside;
@@ -267,7 +267,7 @@ std::optional<Interval> in(const Rounded<double>& s, const V& o, const V& d) {
   return inside;
 }
 
-std::optional<Interval> in(const Transform<double>& s, const V& o, const V& d) {
+std::optional<Interval> in(const Transform& s, const V& o, const V& d) {
   const Affine<Long> inverse = s.map.affine().cast<Long>().inverse();
   return line_in_shape(*s.shape, inverse(o), inverse.linear * d);
 }
@@ -279,8 +279,7 @@ std::optional<Interval> in(const S&, const V&, const V&) {
 
 }  // namespace
 
-std::optional<Interval> line_in_shape(const Shape<double>& shape, const V& origin,
-                                      const V& direction) {
+std::optional<Interval> line_in_shape(const Shape& shape, const V& origin, const V& direction) {
   return std::visit(
       [&](const auto& kind) -> std::optional<Interval> { return in(kind, origin, direction); },
       shape.kind);

@@ -22,7 +22,7 @@ struct Interval {
 /// The whole line, t of any sign. The shape's numbers are taken as exact. Nothing for shapes that
 /// have no closed form here: points and segments, which no line meets by chance, and those
 /// operators that make new surfaces.
-std::optional<Interval> line_in_shape(const Shape<double>& shape, const Vec3<Long>& origin,
+std::optional<Interval> line_in_shape(const Shape& shape, const Vec3<Long>& origin,
                                       const Vec3<Long>& direction);
 
 }  // namespace minkray::testing

@@ -16,9 +16,10 @@ struct FilterVerdict {
 /// Judges a shape as it was prepared, whose numbers are taken as exact. `line_in(at, along)` is the
 /// interval of a line in the inner shape. The ray is moved near in 113 bits, the rest is in long
 /// double. `leaves`: the answer is cast_exit's.
-template <class T, class LineIn>
-FilterVerdict judge_bound_by(const LineIn& line_in, const PreparedShape<T>& prepared,
-                             const Ray<T>& ray, const CastResult<T>& answer, bool leaves = false) {
+template <class LineIn>
+inline FilterVerdict judge_bound_by(const LineIn& line_in, const PreparedShape& prepared,
+                                    const Ray<double>& ray, const CastResult<double>& answer,
+                                    bool leaves = false) {
   __extension__ using Quad = __float128;
   std::array<Quad, 3> o, d;
   for (int i = 0; i < 3; ++i) {
@@ -26,7 +27,7 @@ FilterVerdict judge_bound_by(const LineIn& line_in, const PreparedShape<T>& prep
         Quad(ray.origin[i]) - Quad(prepared.centre()[i]) - Quad(prepared.two_fold_centre().low[i]);
     d[static_cast<std::size_t>(i)] = Quad(ray.direction[i]);
   }
-  if (const Mat3<T>* map = prepared.linear_to_inner()) {
+  if (const Mat3<double>* map = prepared.linear_to_inner()) {
     const auto times = [&](const std::array<Quad, 3>& v) {
       std::array<Quad, 3> mapped;
       for (int i = 0; i < 3; ++i)
@@ -70,9 +71,9 @@ FilterVerdict judge_bound_by(const LineIn& line_in, const PreparedShape<T>& prep
 }
 
 /// line_in_shape must know the inner shape.
-template <class T>
-FilterVerdict judge_bound(const Shape<double>& inner, const PreparedShape<T>& prepared,
-                          const Ray<T>& ray, const CastResult<T>& answer, bool leaves = false) {
+inline FilterVerdict judge_bound(const Shape& inner, const PreparedShape& prepared,
+                                 const Ray<double>& ray, const CastResult<double>& answer,
+                                 bool leaves = false) {
   const auto line_in = [&](const Vec3<Long>& at, const Vec3<Long>& along) {
     return *line_in_shape(inner, at, along);
   };

@@ -184,10 +184,10 @@ class TwoEllipsoids {
   Long least_radius_, greatest_radius_, size_;
 };
 
-std::vector<Vec3<double>> corners_of(const Shape<double>& shape) {
-  if (const auto* hull = std::get_if<Hull<double>>(&shape.kind)) return hull->points.points();
+std::vector<Vec3<double>> corners_of(const Shape& shape) {
+  if (const auto* hull = std::get_if<Hull>(&shape.kind)) return hull->points.points();
   std::vector<Vec3<double>> corners;
-  if (const auto* box = std::get_if<Box<double>>(&shape.kind))
+  if (const auto* box = std::get_if<Box>(&shape.kind))
     for (int i = 0; i < 8; ++i)
       corners.push_back(Vec3<double>(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1)
                             .cwiseProduct(box->half_extents));
@@ -202,30 +202,29 @@ std::vector<V> exact(const std::vector<Vec3<double>>& points, const V& units) {
 
 }  // namespace
 
-LineEntries::LineEntries(const Shape<double>& shape) {
-  if (const auto* hull = std::get_if<Hull<double>>(&shape.kind)) {
+LineEntries::LineEntries(const Shape& shape) {
+  if (const auto* hull = std::get_if<Hull>(&shape.kind)) {
     enter_ = [planes = HalfSpaces(hull->points.points())](const V& o, const V& d, const auto&) {
       const HalfSpaces::Part part = planes.clip(o, d);
       return part.empty() ? LineEntry{Answer::miss, 0} : LineEntry{Answer::hit, part.lower};
     };
     return;
   }
-  if (const auto* rounded = std::get_if<Rounded<double>>(&shape.kind)) {
+  if (const auto* rounded = std::get_if<Rounded>(&shape.kind)) {
     if (const auto points = corners_of(*rounded->shape); !points.empty()) {
       enter_ = [hull = RoundedHull(points, exact(points, V::Ones()), rounded->radius)](
                    const V& o, const V& d, const auto&) { return hull(o, d); };
       return;
     }
   }
-  if (const auto* sum = std::get_if<MinkowskiSum<double>>(&shape.kind);
-      sum && sum->shapes.size() == 2) {
-    const auto* first = std::get_if<Ellipsoid<double>>(&sum->shapes[0]->kind);
-    const auto* second = std::get_if<Ellipsoid<double>>(&sum->shapes[1]->kind);
+  if (const auto* sum = std::get_if<MinkowskiSum>(&shape.kind); sum && sum->shapes.size() == 2) {
+    const auto* first = std::get_if<Ellipsoid>(&sum->shapes[0]->kind);
+    const auto* second = std::get_if<Ellipsoid>(&sum->shapes[1]->kind);
     if (first && second) {
       enter_ = TwoEllipsoids(first->radii, second->radii);
       return;
     }
-    const Shape<double>& other = *sum->shapes[first ? 1 : 0];
+    const Shape& other = *sum->shapes[first ? 1 : 0];
     if (const auto* ellipsoid = first ? first : second) {
       if (const auto points = corners_of(other); !points.empty()) {
         const V units = ellipsoid->radii.cast<Long>();

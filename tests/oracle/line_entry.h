@@ -31,7 +31,7 @@ class LineEntries {
   using Long = long double;
 
   /// std::invalid_argument for shapes that are none of these.
-  explicit LineEntries(const Shape<double>& shape);
+  explicit LineEntries(const Shape& shape);
 
   /// Enters by the whole line, t of any sign, for origins outside and near the shape. `normal` is
   /// where to begin with sums of ellipsoids: a guess at the outward normal of the hit, or of a

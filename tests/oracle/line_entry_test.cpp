@@ -15,17 +15,17 @@ namespace {
 
 using V = Vec3<Long>;
 
-Shape<double> hull_of(int points) {
+Shape hull_of(int points) {
   Random random(7);
   std::vector<Vec3<double>> cloud;
   for (int i = 0; i < points; ++i) cloud.push_back(random.direction());
-  return Hull<double>{PointCloud<double>(cloud)};
+  return Hull{PointCloud(cloud)};
 }
 
-void expect_as_portal(const Shape<double>& shape, int rays) {
+void expect_as_portal(const Shape& shape, int rays) {
   const LineEntries entries(shape);
   const PortalCast portal(shape);
-  const PreparedShape<double> prepared(shape);
+  const PreparedShape prepared(shape);
   Random random(3);
   int hits = 0, misses = 0;
   for (const RayFamily family : {RayFamily::random, RayFamily::grazing}) {
@@ -50,39 +50,38 @@ void expect_as_portal(const Shape<double>& shape, int rays) {
   EXPECT_GT(misses, rays / 4);
 }
 
-const Shape<double> box = Box<double>{{1, 0.7, 0.5}}, egg = Ellipsoid<double>{{1, 0.5, 0.25}};
+const Shape box = Box{{1, 0.7, 0.5}}, egg = Ellipsoid{{1, 0.5, 0.25}};
 
 TEST(LineEntry, of_hulls) {
   expect_as_portal(hull_of(20), 300);
 }
 
 TEST(LineEntry, of_rounded_hulls) {
-  expect_as_portal(Rounded<double>{0.1, hull_of(20)}, 300);
-  expect_as_portal(Rounded<double>{3, hull_of(20)}, 300);
+  expect_as_portal(Rounded{0.1, hull_of(20)}, 300);
+  expect_as_portal(Rounded{3, hull_of(20)}, 300);
 }
 
 TEST(LineEntry, of_rounded_boxes) {
-  expect_as_portal(Rounded<double>{0.2, box}, 300);
+  expect_as_portal(Rounded{0.2, box}, 300);
 }
 
 TEST(LineEntry, of_box_and_ellipsoid) {
-  expect_as_portal(MinkowskiSum<double>{{egg, box}}, 300);
-  expect_as_portal(MinkowskiSum<double>{{hull_of(12), egg}}, 300);
+  expect_as_portal(MinkowskiSum{{egg, box}}, 300);
+  expect_as_portal(MinkowskiSum{{hull_of(12), egg}}, 300);
 }
 
 TEST(LineEntry, of_two_ellipsoids) {
-  expect_as_portal(MinkowskiSum<double>{{egg, Shape<double>(Ellipsoid<double>{{0.3, 0.5, 1}})}},
-                   300);
+  expect_as_portal(MinkowskiSum{{egg, Shape(Ellipsoid{{0.3, 0.5, 1}})}}, 300);
 }
 
 TEST(LineEntry, of_shapes_with_closed_forms) {
-  expect_as_portal(Cone<double>{1, 1}, 300);
-  expect_as_portal(Superellipsoid<double>{{1, 1, 1}, 4}, 300);
+  expect_as_portal(Cone{1, 1}, 300);
+  expect_as_portal(Superellipsoid{{1, 1, 1}, 4}, 300);
 }
 
 TEST(LineEntry, of_other_shapes_is_refused) {
-  EXPECT_THROW(LineEntries(Shape<double>(HullOf<double>{{box, egg}})), std::invalid_argument);
-  EXPECT_THROW(LineEntries(Shape<double>(Rounded<double>{1, egg})), std::invalid_argument);
+  EXPECT_THROW(LineEntries(Shape(HullOf{{box, egg}})), std::invalid_argument);
+  EXPECT_THROW(LineEntries(Shape(Rounded{1, egg})), std::invalid_argument);
 }
 
 }  // namespace

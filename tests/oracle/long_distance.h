@@ -12,7 +12,7 @@
 namespace minkray::testing {
 
 struct LongBody {
-  const Shape<double>* shape;
+  const Shape* shape;
   Affine<long double> pose;
 
   Real3 support(const Real3& n) const {
@@ -23,17 +23,16 @@ struct LongBody {
 /// A shape without the radius that it is grown by: distances of the smaller ones
 /// are convex where those of the grown ones may be depths.
 struct WithoutRadius {
-  Shape<double> shape;
+  Shape shape;
   long double radius = 0;
 };
-inline WithoutRadius without_radius(const Shape<double>& shape) {
-  if (const auto* ball = std::get_if<Sphere<double>>(&shape.kind))
-    return {Point<double>(), ball->radius};
-  if (const auto* capsule = std::get_if<Capsule<double>>(&shape.kind)) {
+inline WithoutRadius without_radius(const Shape& shape) {
+  if (const auto* ball = std::get_if<Sphere>(&shape.kind)) return {Point(), ball->radius};
+  if (const auto* capsule = std::get_if<Capsule>(&shape.kind)) {
     const Vec3<double> end(0, 0, capsule->half_height);
-    return {Segment<double>{{-end, end}}, capsule->radius};
+    return {Segment{{-end, end}}, capsule->radius};
   }
-  if (const auto* rounded = std::get_if<Rounded<double>>(&shape.kind)) {
+  if (const auto* rounded = std::get_if<Rounded>(&shape.kind)) {
     WithoutRadius inner = without_radius(*rounded->shape);
     inner.radius += rounded->radius;
     return inner;

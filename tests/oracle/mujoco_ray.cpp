@@ -5,23 +5,21 @@
 
 namespace minkray::testing {
 
-std::optional<MujocoRay> MujocoRay::make(const Shape<double>& shape) {
+std::optional<MujocoRay> MujocoRay::make(const Shape& shape) {
   MujocoRay ray;
   const auto has = [&](mjtGeom type, const Vec3<double>& size) {
     ray.type_ = type;
     ray.size_ = size;
     return ray;
   };
-  if (const auto* s = std::get_if<Sphere<double>>(&shape.kind))
+  if (const auto* s = std::get_if<Sphere>(&shape.kind))
     return has(mjGEOM_SPHERE, {s->radius, 0, 0});
-  if (const auto* s = std::get_if<Capsule<double>>(&shape.kind))
+  if (const auto* s = std::get_if<Capsule>(&shape.kind))
     return has(mjGEOM_CAPSULE, {s->radius, s->half_height, 0});
-  if (const auto* s = std::get_if<Ellipsoid<double>>(&shape.kind))
-    return has(mjGEOM_ELLIPSOID, s->radii);
-  if (const auto* s = std::get_if<Cylinder<double>>(&shape.kind))
+  if (const auto* s = std::get_if<Ellipsoid>(&shape.kind)) return has(mjGEOM_ELLIPSOID, s->radii);
+  if (const auto* s = std::get_if<Cylinder>(&shape.kind))
     return has(mjGEOM_CYLINDER, {s->radius, s->half_height, 0});
-  if (const auto* s = std::get_if<Box<double>>(&shape.kind))
-    return has(mjGEOM_BOX, s->half_extents);
+  if (const auto* s = std::get_if<Box>(&shape.kind)) return has(mjGEOM_BOX, s->half_extents);
   return std::nullopt;
 }
 

@@ -13,7 +13,7 @@ class MujocoRay {
  public:
   /// Nothing for shapes that MuJoCo does not have (it has sphere, capsule, ellipsoid, cylinder,
   /// box).
-  static std::optional<MujocoRay> make(const Shape<double>& shape);
+  static std::optional<MujocoRay> make(const Shape& shape);
 
   /// The ray's parameter where it meets the surface first, from outside or inside; infinite for no
   /// hit. The ray's t_max is ignored.

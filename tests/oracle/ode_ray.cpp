@@ -16,14 +16,14 @@ dReal real(double value) {
   return static_cast<dReal>(value);
 }
 
-dGeomID make_geom(const Shape<double>& shape) {
-  if (const auto* s = std::get_if<Sphere<double>>(&shape.kind))
+dGeomID make_geom(const Shape& shape) {
+  if (const auto* s = std::get_if<Sphere>(&shape.kind))
     return dCreateSphere(nullptr, real(s->radius));
-  if (const auto* s = std::get_if<Capsule<double>>(&shape.kind))
+  if (const auto* s = std::get_if<Capsule>(&shape.kind))
     return dCreateCapsule(nullptr, real(s->radius), real(2 * s->half_height));
-  if (const auto* s = std::get_if<Cylinder<double>>(&shape.kind))
+  if (const auto* s = std::get_if<Cylinder>(&shape.kind))
     return dCreateCylinder(nullptr, real(s->radius), real(2 * s->half_height));
-  if (const auto* s = std::get_if<Box<double>>(&shape.kind)) {
+  if (const auto* s = std::get_if<Box>(&shape.kind)) {
     const Vec3<double> sides = 2 * s->half_extents;
     return dCreateBox(nullptr, real(sides.x()), real(sides.y()), real(sides.z()));
   }
@@ -45,7 +45,7 @@ struct OdeRay::State {
 OdeRay::OdeRay(std::unique_ptr<State> state) : state_(std::move(state)) {}
 OdeRay::~OdeRay() = default;
 
-std::unique_ptr<OdeRay> OdeRay::make(const Shape<double>& shape) {
+std::unique_ptr<OdeRay> OdeRay::make(const Shape& shape) {
   static std::weak_ptr<OdeLibrary> shared;
   auto library = shared.lock();
   if (!library) shared = library = std::make_shared<OdeLibrary>();

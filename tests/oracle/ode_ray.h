@@ -12,7 +12,7 @@ namespace minkray::testing {
 class OdeRay {
  public:
   /// Nothing for shapes that ODE does not have (it has sphere, capsule, cylinder, box).
-  static std::unique_ptr<OdeRay> make(const Shape<double>& shape);
+  static std::unique_ptr<OdeRay> make(const Shape& shape);
   ~OdeRay();
 
   /// The ray's parameter where it enters, for rays from outside; infinite for no hit before t_max,

@@ -7,7 +7,6 @@
 #include <array>
 #include <limits>
 
-#include "core/derived/convert.h"
 #include "core/derived/shape_bounds.h"
 
 namespace minkray::testing {
@@ -28,7 +27,7 @@ struct PortalHit {
 /// splits the portal in three triangles, and the ray passes through one of them.
 class PortalCast {
  public:
-  explicit PortalCast(const Shape<double>& shape) : shape_(convert<Long>(shape)) {
+  explicit PortalCast(const Shape& shape) : shape_(shape) {
     const Bounds<Long> bounds = bounds_of<Long>(shape_);
     radius_ = bounds.half_extents().norm();
     // Off the middle: viewed from a centre of symmetry, portals have the line in their sides.
@@ -66,7 +65,7 @@ class PortalCast {
   /// Points are relative to `origin`, which lies on the line near the shape; (a, b) is the plane
   /// across.
   struct Search {
-    const Shape<Long>& shape;
+    const Shape& shape;
     Vec3<Long> r, origin, a, b;
     int supports;
 
@@ -176,7 +175,7 @@ class PortalCast {
     }
   };
 
-  Shape<Long> shape_;
+  Shape shape_;
   Vec3<Long> middle_;
   Long radius_ = 0;
 };

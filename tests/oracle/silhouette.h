@@ -12,7 +12,7 @@
 namespace minkray::testing {
 
 /// Depth of the ray within the shape's shadow along the ray; negative: outside of it.
-inline double room_in_shadow(const Shape<double>& shape, const Ray<double>& ray) {
+inline double room_in_shadow(const Shape& shape, const Ray<double>& ray) {
   const Vec3<double> r = ray.direction.normalized(), a = r.unitOrthogonal(), b = r.cross(a);
   const Vec3<double> near = ray.origin + (shape.support(r) - ray.origin).dot(r) * r;
   const auto room = [&](double angle) {

@@ -2,8 +2,6 @@
 #include "tests/proof/certified_casts.h"
 
 #include "core/cast/cast.h"
-#include "core/derived/convert.h"
-#include "tests/support/rounded.h"
 
 namespace minkray::testing {
 
@@ -24,20 +22,19 @@ CertifiedCasts& CertifiedCasts::operator+=(const CertifiedCasts& other) {
   return *this;
 }
 
-template <class T>
-CertifiedCasts certified_casts(const Shape<double>& shape, RayFamily family, int rays,
-                               std::uint64_t seed, SolverKind solver) {
-  const Shape<T> cast_at = convert<T>(shape);
-  const Shape<double> same = convert<double>(cast_at);
-  const PreparedShape<T> prepared(cast_at);
+CertifiedCasts certified_casts(const Shape& shape, RayFamily family, int rays, std::uint64_t seed,
+                               SolverKind solver) {
+  const Shape cast_at = shape;
+  const Shape same = cast_at;
+  const PreparedShape prepared(cast_at);
   const SupportFunction support = supports_of(same);
-  CastOptions<T> options;
+  CastOptions options;
   options.solver = solver;
   FamilyRays source(same, family, seed);
   CertifiedCasts all;
   for (int i = 0; i < rays; ++i) {
-    const Ray<T> ray = rounded_to<T>(source.next());
-    const Ray<double> same_ray = in_double(ray);
+    const Ray<double> ray = source.next();
+    const Ray<double> same_ray = ray;
     const Claim claim = claim_of(cast_ray(prepared, ray, options));
     if (claim.status == Status::exhausted) {
       ++all.exhausted;
@@ -70,10 +67,5 @@ CertifiedCasts certified_casts(const Shape<double>& shape, RayFamily family, int
   }
   return all;
 }
-
-template CertifiedCasts certified_casts<float>(const Shape<double>&, RayFamily, int, std::uint64_t,
-                                               SolverKind);
-template CertifiedCasts certified_casts<double>(const Shape<double>&, RayFamily, int, std::uint64_t,
-                                                SolverKind);
 
 }  // namespace minkray::testing

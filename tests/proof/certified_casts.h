@@ -33,13 +33,7 @@ struct CertifiedCasts {
 };
 
 /// Casts in T at the shape rounded to T, with rays rounded to T; proofs in double.
-template <class T>
-CertifiedCasts certified_casts(const Shape<double>& shape, RayFamily family, int rays,
-                               std::uint64_t seed, SolverKind solver = SolverKind::automatic);
-
-extern template CertifiedCasts certified_casts<float>(const Shape<double>&, RayFamily, int,
-                                                      std::uint64_t, SolverKind);
-extern template CertifiedCasts certified_casts<double>(const Shape<double>&, RayFamily, int,
-                                                       std::uint64_t, SolverKind);
+CertifiedCasts certified_casts(const Shape& shape, RayFamily family, int rays, std::uint64_t seed,
+                               SolverKind solver = SolverKind::automatic);
 
 }  // namespace minkray::testing

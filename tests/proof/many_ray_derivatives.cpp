@@ -160,7 +160,7 @@ class RayJudge {
 constexpr std::size_t rays_of_a_shape = 200;
 
 /// Rays at one shape from some sizes away, some of them at its corners and edges.
-Row judge_shape(const Shape<double>& shape, RandomShapes& random) {
+Row judge_shape(const Shape& shape, RandomShapes& random) {
   Row row;
   const LineEntries entries(shape);
   const ContactShape ready(shape);

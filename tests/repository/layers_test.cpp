@@ -236,7 +236,7 @@ constexpr bool is_operator() {
   bool found = false;
   for_each_field<S>([&](const auto& field) {
     using M = typename std::remove_cvref_t<decltype(field)>::Member;
-    found |= std::is_same_v<M, Nested<double>> || std::is_same_v<M, ShapeList<double>>;
+    found |= std::is_same_v<M, Nested> || std::is_same_v<M, ShapeList>;
   });
   return found;
 }
@@ -253,7 +253,7 @@ TEST(Layers, no_shape_is_named_outside_of_its_header_and_the_list) {
     return type;
   };
   std::string names;
-  for_each_shape_kind<double>([&]<class S>() {
+  for_each_shape_kind([&]<class S>() {
     // Points and segments are what queries are made of, whatever shapes there are.
     if (S::name == "point" || S::name == "segment") return;
     if (!is_operator<S>()) names += (names.empty() ? "" : "|") + type_name(S::name);

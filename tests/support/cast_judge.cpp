@@ -13,13 +13,12 @@ using Long = long double;
 namespace {
 
 /// Distance from the silhouette within which hit and miss may be mistaken, in units of R.
-template <class T>
-constexpr double band = std::is_same_v<T, float> ? 1e-6 : 1e-12;
+constexpr double band = 1e-12;
 
 }  // namespace
 
-CastJudge::CastJudge(const Shape<double>& shape)
-    : shape_(shape), ball_(ball_around(bounds_of<double>(shape))), entries_(shape) {}
+CastJudge::CastJudge(const Shape& shape)
+    : shape_(shape), ball_(ball_around(bounds_of(shape))), entries_(shape) {}
 
 /// The cosine between the ray and a normal, if that is one of the shape where the ray enters, to
 /// within float's rounding; else 1, which allows least.
@@ -27,12 +26,12 @@ double CastJudge::cosine_at(const Ray<double>& ray, Long t, const Vec3<double>& 
   const Vec3<double> n = normal.normalized();
   const Vec3<Long> x = ray.origin.cast<Long>() + t * ray.direction.cast<Long>();
   const auto beyond = static_cast<double>(n.cast<Long>().dot(shape_.support(n).cast<Long>() - x));
-  if (!(std::abs(beyond) <= allowed_error<float> * ball_.radius)) return 1;
+  if (!(std::abs(beyond) <= 5e-7 * ball_.radius)) return 1;
   return std::abs(n.dot(ray.direction)) / ray.direction.norm();
 }
 
 TrueEntry CastJudge::truth(const Ray<double>& ray, const Vec3<double>& normal) const {
-  // Moved near, by a step whose product is exact for rays of floats.
+  // Moved near, by a step with few digits, whose products are exact in long double.
   const auto base = Long(static_cast<float>((ball_.centre - ray.origin).dot(ray.direction) /
                                             ray.direction.squaredNorm()));
   const Vec3<Long> d = ray.direction.cast<Long>();
@@ -44,13 +43,12 @@ TrueEntry CastJudge::truth(const Ray<double>& ray, const Vec3<double>& normal) c
   return truth;
 }
 
-template <class T>
-Judgement CastJudge::operator()(const Ray<double>& ray, const CastResult<T>& answer,
+Judgement CastJudge::operator()(const Ray<double>& ray, const CastResult<double>& answer,
                                 const TrueEntry& truth) const {
   if (answer.status == Status::exhausted) return {Verdict::exhausted};
   if (truth.entry.answer == LineEntry::Answer::undecided) return {Verdict::undecided};
   const auto is_at_silhouette = [&] {
-    return std::abs(room_in_shadow(shape_, ray)) <= band<T> * ball_.radius;
+    return std::abs(room_in_shadow(shape_, ray)) <= band * ball_.radius;
   };
   const bool is_hit = answer.status == Status::hit;
   if (is_hit != (truth.entry.answer == LineEntry::Answer::hit))
@@ -58,17 +56,12 @@ Judgement CastJudge::operator()(const Ray<double>& ray, const CastResult<T>& ans
   if (!is_hit) return {Verdict::right};
   const Long late = (Long(answer.t_base) - truth.entry.t) + Long(answer.t_offset);
   const double cosine =
-      std::min(truth.cosine, cosine_at(ray, truth.entry.t, answer.normal.template cast<double>()));
+      std::min(truth.cosine, cosine_at(ray, truth.entry.t, answer.normal.cast<double>()));
   const double error =
       std::abs(static_cast<double>(late)) * ray.direction.norm() * cosine / ball_.radius;
   // Along a side: entered anywhere, or not at all.
-  if (!(error <= band<T>)&&is_at_silhouette()) return {Verdict::at_silhouette, error};
+  if (!(error <= band) && is_at_silhouette()) return {Verdict::at_silhouette, error};
   return {Verdict::right, error};
 }
-
-template Judgement CastJudge::operator()(const Ray<double>&, const CastResult<float>&,
-                                         const TrueEntry&) const;
-template Judgement CastJudge::operator()(const Ray<double>&, const CastResult<double>&,
-                                         const TrueEntry&) const;
 
 }  // namespace minkray::testing

@@ -13,8 +13,7 @@ namespace minkray::testing {
 
 /// The greatest error of a hit that is allowed, along the normal, in units of R, the radius of the
 /// ball around the shape's bounds.
-template <class T>
-constexpr double allowed_error = std::is_same_v<T, float> ? 5e-7 : 1e-12;
+constexpr double allowed_error = 1e-12;
 
 enum class Verdict : unsigned char {
   right,
@@ -38,7 +37,7 @@ struct TrueEntry {
 class CastJudge {
  public:
   /// LineEntries must know the shape (else std::invalid_argument).
-  explicit CastJudge(const Shape<double>& shape);
+  explicit CastJudge(const Shape& shape);
 
   /// `normal`: the reported normal of a cast in double at the ray's entry. The oracle begins with
   /// it, and uses its cosine if a supporting plane proves that it is one of the normals there.
@@ -46,14 +45,13 @@ class CastJudge {
 
   /// `ray`: the ray that was cast, unbounded, from outside. The result's own normal, too, is
   /// accepted only if it is one at the ray's entry: next to an edge it may be of either side.
-  template <class T>
-  Judgement operator()(const Ray<double>& ray, const CastResult<T>& answer,
+  Judgement operator()(const Ray<double>& ray, const CastResult<double>& answer,
                        const TrueEntry& truth) const;
 
  private:
   double cosine_at(const Ray<double>& ray, long double t, const Vec3<double>& normal) const;
 
-  Shape<double> shape_;
+  Shape shape_;
   Ball<double> ball_;
   LineEntries entries_;
 };

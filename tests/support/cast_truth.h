@@ -29,8 +29,7 @@ long double bisected(long double low, long double high, const auto& is_before) {
 }
 
 /// Distance from the silhouette, in units of R, within which either result is right.
-template <class T>
-constexpr double silhouette_band = std::is_same_v<T, float> ? 1e-6 : 1e-14;
+constexpr double silhouette_band = 1e-14;
 
 /// Statistics of many casts at one shape of bounding radius R.
 struct CastOutcome {
@@ -39,8 +38,7 @@ struct CastOutcome {
   double worst = 0;     ///< error of t times cosine, in units of R
   double unproven = 0;  ///< distance of the lower bound behind the true hit, likewise
 
-  template <class T>
-  void add(const CastResult<T>& result, const CastTruth& truth, const Vec3<double>& direction,
+  void add(const CastResult<double>& result, const CastTruth& truth, const Vec3<double>& direction,
            double R) {
     using Long = long double;
     const bool hit = result.status == Status::hit;
@@ -49,10 +47,10 @@ struct CastOutcome {
     others += !hit && result.status != Status::miss;
     supports += result.supports;
     most_supports = std::max(most_supports, result.supports);
-    if (hit != truth.hit && std::abs(truth.beside) > silhouette_band<T> * R) ++wrong;
+    if (hit != truth.hit && std::abs(truth.beside) > silhouette_band * R) ++wrong;
     if (!hit || !truth.hit) return;
     const Long across = -truth.normal.dot(direction.cast<Long>());
-    const auto error = [&](T offset) {
+    const auto error = [&](double offset) {
       return static_cast<double>((Long(result.t_base) + Long(offset) - truth.t) * across / R);
     };
     worst = std::max(worst, std::abs(error(result.t_offset)));

@@ -6,13 +6,11 @@
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
-#include "core/derived/convert.h"
 #include "core/proof/certificate.h"
 #include "core/proof/check_certificate.h"
 #include "tests/oracle/filter_truth.h"
 #include "tests/support/random.h"
 #include "tests/support/ray_families.h"
-#include "tests/support/rounded.h"
 
 namespace minkray::testing {
 
@@ -33,13 +31,12 @@ inline std::vector<Posed> poses() {
 }
 
 /// Begun and ended anywhere along it, in one case of four.
-template <class T>
-Ray<T> cut(Ray<double> ray, Random& random) {
+inline Ray<double> cut(Ray<double> ray, Random& random) {
   const double way = 2 * ray.origin.norm() / ray.direction.norm();
   const int kind = random.below(8);
   if (kind == 0) ray.t_max = random.uniform() * way;
   if (kind == 1) ray.origin += ray.direction * (random.uniform() * way);
-  return rounded_to<T>(ray);
+  return ray;
 }
 
 struct Counted {
@@ -49,11 +46,11 @@ struct Counted {
 
 /// Compares a result of the filter with `line_in(at, along)`, the interval of a line in the inner
 /// shape's frame.
-template <class T, class LineIn>
-void judge_by(const LineIn& line_in, const PreparedShape<T>& prepared, const Ray<T>& ray,
+template <class LineIn>
+void judge_by(const LineIn& line_in, const PreparedShape& prepared, const Ray<double>& ray,
               Counted& counted) {
   for (const bool leaves : {false, true}) {
-    const CastResult<T> answer = leaves ? cast_exit(prepared, ray) : cast_ray(prepared, ray);
+    const CastResult<double> answer = leaves ? cast_exit(prepared, ray) : cast_ray(prepared, ray);
     if (answer.path != Path::filter) {
       counted.in_doubt += leaves ? 0 : 1;
       continue;
@@ -79,20 +76,18 @@ void judge_by(const LineIn& line_in, const PreparedShape<T>& prepared, const Ray
 
 /// Checks the filter's results for `rays_each` rays of each family, by a checker that uses
 /// supports only.
-template <class T>
-void expect_certified(const Shape<T>& shape, const PreparedShape<T>& prepared, std::uint64_t seed,
-                      int rays_each) {
-  const Shape<double> same = convert<double>(shape);
-  const SupportFunction support = supports_of(same);
+inline void expect_certified(const Shape& shape, const PreparedShape& prepared, std::uint64_t seed,
+                             int rays_each) {
+  const SupportFunction support = supports_of(shape);
   for (const RayFamilyDescription& family : ray_families) {
-    FamilyRays rays(same, family.family, seed);
+    FamilyRays rays(shape, family.family, seed);
     for (int i = 0; i < rays_each; ++i) {
-      const Ray<T> ray = rounded_to<T>(rays.next());
-      const CastResult<T> answer = cast_ray(prepared, ray);
+      const Ray<double> ray = rays.next();
+      const CastResult<double> answer = cast_ray(prepared, ray);
       if (answer.path != Path::filter) continue;
       const Claim claim = claim_of(answer);
-      const Certificate proof = certify(support, in_double(ray), claim);
-      EXPECT_TRUE(check_certificate(support, in_double(ray), claim, proof).holds)
+      const Certificate proof = certify(support, ray, claim);
+      EXPECT_TRUE(check_certificate(support, ray, claim, proof).holds)
           << family.name << ", " << name_of(answer.status) << ", origin " << ray.origin.transpose()
           << ", direction " << ray.direction.transpose();
     }

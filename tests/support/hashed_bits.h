@@ -18,9 +18,8 @@ struct HashedBits {
   static void add(Hash& hash, const Number& number) {
     hash.add({reinterpret_cast<const char*>(&number), sizeof number});
   }
-  template <class T>
-  static void add(Hash& hash, const Vec3<T>& v) {
-    for (int k = 0; k < 3; ++k) add(hash, T(v[k]));
+  static void add(Hash& hash, const Vec3<double>& v) {
+    for (int k = 0; k < 3; ++k) add(hash, double(v[k]));
   }
 };
 

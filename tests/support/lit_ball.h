@@ -13,12 +13,12 @@ inline Scene lit_ball(const Resolution& resolution) {
   scene.camera.resolution = resolution;
   scene.materials = {{"matt", LambertMaterial{Colour::Constant(0.7)}},
                      {"lamp", EmissiveMaterial{Colour::Constant(8)}}};
-  const auto add = [&](Shape<double> shape, const Vec3<double>& at, std::uint32_t material) {
+  const auto add = [&](Shape shape, const Vec3<double>& at, std::uint32_t material) {
     scene.objects.push_back({"", std::move(shape), {Mat3<double>::Identity(), at}, material});
   };
-  add(Box<double>{{3, 3, 0.5}}, {0, 0, -1.5}, 0);
-  add(Sphere<double>{1}, {0, 0, 0}, 0);
-  add(Sphere<double>{0.4}, {2, -1, 3}, 1);
+  add(Box{{3, 3, 0.5}}, {0, 0, -1.5}, 0);
+  add(Sphere{1}, {0, 0, 0}, 0);
+  add(Sphere{0.4}, {2, -1, 3}, 1);
   return scene;
 }
 

@@ -10,8 +10,8 @@ inline Affine<double> moved(const Vec3<double>& by) {
   return {Mat3<double>::Identity(), by};
 }
 
-inline Shape<double> mapped(const Shape<double>& shape, const Affine<double>& map) {
-  return Transform<double>{shape, map};
+inline Shape mapped(const Shape& shape, const Affine<double>& map) {
+  return Transform{shape, map};
 }
 
 }  // namespace minkray::testing

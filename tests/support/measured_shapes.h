@@ -12,7 +12,7 @@ namespace minkray::testing {
 
 struct MeasuredShape {
   std::string name;
-  Shape<double> shape;
+  Shape shape;
 };
 
 /// Printed by GoogleTest instead of bytes.
@@ -23,6 +23,6 @@ inline void PrintTo(const MeasuredShape& measured, std::ostream* out) {
 std::vector<MeasuredShape> measured_shapes();
 
 /// Makes the shape `scale` times as large.
-Shape<double> scaled(const Shape<double>& shape, double scale);
+Shape scaled(const Shape& shape, double scale);
 
 }  // namespace minkray::testing

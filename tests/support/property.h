@@ -40,10 +40,10 @@ inline std::string draw_bytes(int count) {
 }
 
 /// Any shape of ordinary size, nested up to `depth` deep; a counterexample is reported as JSON.
-inline Shape<double> draw_shape(int depth = 2) {
+inline Shape draw_shape(int depth = 2) {
   const std::string drawn = draw_bytes(96);
   fuzz::Bytes bytes(drawn);
-  Shape<double> shape = fuzz::shape_from<double>(bytes, false, depth);
+  Shape shape = fuzz::shape_from(bytes, false, depth);
   RC_LOG() << write_shape(shape).dump() << '\n';
   return shape;
 }

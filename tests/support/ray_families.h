@@ -35,9 +35,9 @@ inline constexpr std::array ray_families = {
 /// Rays at one shape, with infinite t_max. R is the radius of its bounding ball.
 class FamilyRays {
  public:
-  FamilyRays(const Shape<double>& shape, RayFamily family, std::uint64_t seed)
+  FamilyRays(const Shape& shape, RayFamily family, std::uint64_t seed)
       : shape_(shape), family_(family), random_(seed) {
-    const Bounds<double> bounds = bounds_of<double>(shape);
+    const Bounds<double> bounds = bounds_of(shape);
     ball_ = ball_around(bounds);
     half_extents_ = bounds.half_extents();
     if (!(ball_.radius > 0)) ball_.radius = 1;
@@ -129,7 +129,7 @@ class FamilyRays {
     }
   }
 
-  const Shape<double>& shape_;
+  const Shape& shape_;
   RayFamily family_;
   Random random_;
   Ball<double> ball_;

@@ -14,7 +14,7 @@ namespace minkray::testing {
 
 struct SampleShape {
   std::string name;  ///< the kind's name, then what is special
-  Shape<double> shape;
+  Shape shape;
 };
 
 /// Printed by GoogleTest instead of bytes.
@@ -26,9 +26,9 @@ inline void PrintTo(const SampleShape& sample, std::ostream* out) {
 std::vector<SampleShape> sample_shapes();
 
 /// A shape of up to `depth` operators inside each other, of sizes near 1, solid or flat.
-Shape<double> random_nesting(std::uint64_t seed, int depth = 3);
+Shape random_nesting(std::uint64_t seed, int depth = 3);
 
 /// Such as "rounded(minkowski_sum(box, hull))".
-std::string name_of_nesting(const Shape<double>& shape);
+std::string name_of_nesting(const Shape& shape);
 
 }  // namespace minkray::testing

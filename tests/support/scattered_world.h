@@ -27,17 +27,16 @@ struct Scatter {
 
 /// Shapes have models for packets or none; some are in the same place twice.
 inline Instances scattered_shapes(int count, Scatter& random) {
-  const std::vector<Shape<double>> kinds = {
-      Sphere<double>{0.7},
-      Rounded<double>{0.1, Shape<double>(Box<double>{{0.6, 0.5, 0.3}})},
-      Ellipsoid<double>{{1, 0.5, 0.2}},
-      Cylinder<double>{0.3, 0.8},
-      MinkowskiSum<double>{{Shape<double>(Ellipsoid<double>{{0.4, 0.3, 0.2}}),
-                            Shape<double>(Box<double>{{0.3, 0.3, 0.1}})}},
-      Triangle<double>{{Vec3<double>(0, 0, 0), Vec3<double>(1, 0, 0), Vec3<double>(0, 1, 0)}}};
+  const std::vector<Shape> kinds = {
+      Sphere{0.7},
+      Rounded{0.1, Shape(Box{{0.6, 0.5, 0.3}})},
+      Ellipsoid{{1, 0.5, 0.2}},
+      Cylinder{0.3, 0.8},
+      MinkowskiSum{{Shape(Ellipsoid{{0.4, 0.3, 0.2}}), Shape(Box{{0.3, 0.3, 0.1}})}},
+      Triangle{{Vec3<double>(0, 0, 0), Vec3<double>(1, 0, 0), Vec3<double>(0, 1, 0)}}};
   Instances shapes;
   for (int i = 0; i < count; ++i) {
-    const Shape<double>& kind = kinds[static_cast<std::size_t>(i) % kinds.size()];
+    const Shape& kind = kinds[static_cast<std::size_t>(i) % kinds.size()];
     const Affine<double> pose = random.pose(6);
     for (int twice = 0; twice < (i % 10 == 0 ? 2 : 1); ++twice) shapes.add(kind, pose);
   }
@@ -46,27 +45,25 @@ inline Instances scattered_shapes(int count, Scatter& random) {
 
 /// A few definitions of many instances, some of them only moved.
 inline Instances scattered_instances(int count, Scatter& random) {
-  const Shape<double> box = Box<double>{{0.6, 0.5, 0.3}};
+  const Shape box = Box{{0.6, 0.5, 0.3}};
   std::vector<Vec3<double>> points;
   for (int i = 0; i < 20; ++i) points.push_back(random.point(0.8));
-  const Shape<double> hull = Hull<double>{PointCloud<double>(points)};
-  const std::vector<Shape<double>> kinds = {
-      Sphere<double>{0.7},
+  const Shape hull = Hull{PointCloud(points)};
+  const std::vector<Shape> kinds = {
+      Sphere{0.7},
       box,
-      Rounded<double>{0.1, box},
-      Ellipsoid<double>{{1, 0.5, 0.2}},
-      Cylinder<double>{0.3, 0.8},
-      Cone<double>{0.5, 0.8},
-      Capsule<double>{0.3, 0.8},
+      Rounded{0.1, box},
+      Ellipsoid{{1, 0.5, 0.2}},
+      Cylinder{0.3, 0.8},
+      Cone{0.5, 0.8},
+      Capsule{0.3, 0.8},
       hull,
-      Rounded<double>{0.1, hull},
-      Rounded<double>{
-          0.2, Shape<double>(Segment<double>{{Vec3<double>(0, 0, 0), Vec3<double>(1, 1, 0)}})},
-      MinkowskiSum<double>{{Shape<double>(Ellipsoid<double>{{0.4, 0.3, 0.2}}),
-                            Shape<double>(Box<double>{{0.3, 0.3, 0.1}})}},
-      Triangle<double>{{Vec3<double>(0, 0, 0), Vec3<double>(1, 0, 0), Vec3<double>(0, 1, 0)}}};
+      Rounded{0.1, hull},
+      Rounded{0.2, Shape(Segment{{Vec3<double>(0, 0, 0), Vec3<double>(1, 1, 0)}})},
+      MinkowskiSum{{Shape(Ellipsoid{{0.4, 0.3, 0.2}}), Shape(Box{{0.3, 0.3, 0.1}})}},
+      Triangle{{Vec3<double>(0, 0, 0), Vec3<double>(1, 0, 0), Vec3<double>(0, 1, 0)}}};
   Instances shapes;
-  for (const Shape<double>& kind : kinds) shapes.define(kind);
+  for (const Shape& kind : kinds) shapes.define(kind);
   for (int i = 0; i < count; ++i) {
     Affine<double> pose = random.pose(12);
     if (i % 3 == 0) pose.linear = Mat3<double>::Identity();

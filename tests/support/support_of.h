@@ -8,7 +8,7 @@ namespace minkray::testing {
 
 class SupportOf final : public SupportSource {
  public:
-  explicit SupportOf(Shape<double> shape) : shape_(std::move(shape)) {}
+  explicit SupportOf(Shape shape) : shape_(std::move(shape)) {}
 
  private:
   void support(std::size_t count, const Coordinates* n, Coordinates* points) const override {
@@ -17,11 +17,11 @@ class SupportOf final : public SupportSource {
       points[i] = {p.x(), p.y(), p.z()};
     }
   }
-  Shape<double> shape_;
+  Shape shape_;
 };
 
-inline Shape<double> as_custom(Shape<double> shape) {
-  return Custom<double>{std::make_shared<const SupportOf>(std::move(shape))};
+inline Shape as_custom(Shape shape) {
+  return Custom{std::make_shared<const SupportOf>(std::move(shape))};
 }
 
 }  // namespace minkray::testing

@@ -12,42 +12,42 @@ std::string counted_numbers(std::size_t count) {
 namespace {
 
 /// Along z.
-Shape<double> segment_of(double half_length) {
-  if (half_length == 0) return Point<double>();
-  return Segment<double>{{Vec3<double>(0, 0, -half_length), Vec3<double>(0, 0, half_length)}};
+Shape segment_of(double half_length) {
+  if (half_length == 0) return Point();
+  return Segment{{Vec3<double>(0, 0, -half_length), Vec3<double>(0, 0, half_length)}};
 }
 
 }  // namespace
 
-Shape<double> box_of(const Vec3<double>& half_extents) {
-  return Box<double>{half_extents};
+Shape box_of(const Vec3<double>& half_extents) {
+  return Box{half_extents};
 }
 
-Shape<double> sphere_of(double radius) {
-  if (radius == 0) return Point<double>();
-  Sphere<double> sphere;
+Shape sphere_of(double radius) {
+  if (radius == 0) return Point();
+  Sphere sphere;
   sphere.radius = radius;
   return sphere;
 }
 
-Shape<double> cylinder_of(double radius, double half_height) {
+Shape cylinder_of(double radius, double half_height) {
   if (radius == 0) return segment_of(half_height);
-  return Cylinder<double>{radius, half_height};
+  return Cylinder{radius, half_height};
 }
 
-Shape<double> capsule_of(double radius, double half_height) {
+Shape capsule_of(double radius, double half_height) {
   if (radius == 0) return segment_of(half_height);
   if (half_height == 0) return sphere_of(radius);
-  return Capsule<double>{radius, half_height};
+  return Capsule{radius, half_height};
 }
 
-Shape<double> cone_of(double radius, double half_height) {
+Shape cone_of(double radius, double half_height) {
   if (radius == 0) return segment_of(half_height);
-  return Cone<double>{radius, half_height};
+  return Cone{radius, half_height};
 }
 
-Shape<double> ellipsoid_of(const Vec3<double>& radii) {
-  if ((radii.array() > 0).all()) return Ellipsoid<double>{radii};
+Shape ellipsoid_of(const Vec3<double>& radii) {
+  if ((radii.array() > 0).all()) return Ellipsoid{radii};
   // A flat ellipsoid is a disk or a segment along z, turned.
   int flat = 0, longest = 0;
   for (int i = 1; i < 3; ++i) {
@@ -60,11 +60,11 @@ Shape<double> ellipsoid_of(const Vec3<double>& radii) {
     turn.linear.col(0) = radii[along] * Vec3<double>::Unit(along);
     turn.linear.col(1) = radii[across] * Vec3<double>::Unit(across);
     turn.linear.col(2) = Vec3<double>::Unit(flat);
-    return Transform<double>{Shape<double>(Disk<double>{1}), turn};
+    return Transform{Shape(Disk{1}), turn};
   }
-  if (radii[longest] == 0) return Point<double>();
-  return Segment<double>{{-radii[longest] * Vec3<double>::Unit(longest),
-                          radii[longest] * Vec3<double>::Unit(longest)}};
+  if (radii[longest] == 0) return Point();
+  return Segment{{-radii[longest] * Vec3<double>::Unit(longest),
+                  radii[longest] * Vec3<double>::Unit(longest)}};
 }
 
 void make_plane(ModelGeom& geom, double half_x, double half_y) {

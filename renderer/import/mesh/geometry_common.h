@@ -14,13 +14,13 @@ namespace minkray {
 /// "1 number", "2 numbers".
 std::string counted_numbers(std::size_t count);
 
-Shape<double> box_of(const Vec3<double>& half_extents);
-Shape<double> sphere_of(double radius);
-Shape<double> cylinder_of(double radius, double half_height);
-Shape<double> capsule_of(double radius, double half_height);
+Shape box_of(const Vec3<double>& half_extents);
+Shape sphere_of(double radius);
+Shape cylinder_of(double radius, double half_height);
+Shape capsule_of(double radius, double half_height);
 /// The apex is at z = +half_height.
-Shape<double> cone_of(double radius, double half_height);
-Shape<double> ellipsoid_of(const Vec3<double>& radii);
+Shape cone_of(double radius, double half_height);
+Shape ellipsoid_of(const Vec3<double>& radii);
 
 /// The geom is a plane z = 0 that ends at these half sizes for rays, which meet it from above, and
 /// has no end for contact. 0: it has no end that way; if both are 0 not for rays either.

@@ -45,7 +45,7 @@ class Sizes {
   ObjectReader reader_;
 };
 
-GltfShape upright(std::string kind, Shape<double> shape) {
+GltfShape upright(std::string kind, Shape shape) {
   return {std::move(kind), std::move(shape), z_to_y()};
 }
 
@@ -83,14 +83,13 @@ std::optional<GltfShape> gltf_shape(GltfDocument& document, const Json& number,
   } else if (*kind == "capsule") {
     const double half = sizes.number("height", 0.5) / 2;
     const auto radii = sizes.radii();
-    shape = upright("capsule", radii[0] == radii[1]
-                                   ? capsule_of(radii[0], half)
-                                   : Shape<double>(TaperedCapsule<double>{radii, half}));
+    shape = upright("capsule", radii[0] == radii[1] ? capsule_of(radii[0], half)
+                                                    : Shape(TaperedCapsule{radii, half}));
   } else if (*kind == "cylinder") {
     const double half = sizes.number("height", 0.5) / 2;
     const auto radii = sizes.radii();
     shape = upright("cylinder", radii[0] == radii[1] ? cylinder_of(radii[0], half)
-                                                     : Shape<double>(Frustum<double>{radii, half}));
+                                                     : Shape(Frustum{radii, half}));
   } else if (*kind == "plane") {
     if (sizes.has("sizeX") || sizes.has("sizeZ")) {
       mistakes.add(path / *kind, "planes of finite size are not supported");

@@ -14,7 +14,7 @@ namespace minkray {
 /// A shape of our own, whose axis is z, and the pose that brings it to glTF's, whose axis is y.
 struct GltfShape {
   std::string kind;
-  std::optional<Shape<double>> shape;  ///< none: the half-space under z = 0
+  std::optional<Shape> shape;  ///< none: the half-space under z = 0
   Affine<double> pose;
 };
 

@@ -253,9 +253,9 @@ MeshLibrary::Answer MeshLibrary::add(const MeshParts& mesh, const Vec3<double>& 
     if (part.surface) {
       facts.parts.push_back({part.surface});
     } else {
-      PointCloud<double> hull(vertices);
+      PointCloud hull(vertices);
       facts.parts.push_back({{}, hull, std::move(vertices)});
-      part.hull = Hull<double>{std::move(hull)};
+      part.hull = Hull{std::move(hull)};
       if (options_->meshes == MeshChoice::exact)
         answer.notes.emplace_back("has no triangles: its hull is used");
     }

@@ -54,7 +54,7 @@ class MeshLibrary {
   /// A surface, or a hull where surfaces are not requested or there are no triangles.
   struct Part {
     std::shared_ptr<const TriangleMesh> surface = {};
-    std::optional<Shape<double>> hull = {};
+    std::optional<Shape> hull = {};
     std::optional<Rgba> colour = {};                        ///< if the file has one
     std::shared_ptr<const MeshAttributes> attributes = {};  ///< of the surface, if it has any
   };

@@ -127,8 +127,8 @@ std::optional<std::vector<double>> MjcfAssets::fit(const XmlElement& written, co
     return std::nullopt;
   }
   const MeshLibrary::Part& part = mesh->parts.front();
-  const Shape<double> shape = part.surface ? hull_of(*part.surface) : *part.hull;
-  const auto* hull = std::get_if<Hull<double>>(&shape.kind);
+  const Shape shape = part.surface ? hull_of(*part.surface) : *part.hull;
+  const auto* hull = std::get_if<Hull>(&shape.kind);
   const Mass mass = hull ? mass_of(hull->points) : Mass();
   if (mesh->parts.size() > 1 || !(mass.volume > 0)) {
     files_.wrong(written,
@@ -200,7 +200,7 @@ MeshLibrary::Answer MjcfAssets::parts_of(const std::string& name, const XmlEleme
   if (moves)
     for (MeshLibrary::Part& part : answer.parts) {
       const Affine<double> map = Affine<double>{scale.asDiagonal(), {0, 0, 0}} * before;
-      if (part.hull) part.hull = Transform<double>{*part.hull, map};
+      if (part.hull) part.hull = Transform{*part.hull, map};
       if (part.surface) part.surface = mapped(*part.surface, map);
       if (part.attributes) {
         MeshAttributes moved = *part.attributes;

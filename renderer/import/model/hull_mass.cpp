@@ -9,9 +9,9 @@
 
 namespace minkray {
 
-Mass mass_of(const PointCloud<double>& hull) {
+Mass mass_of(const PointCloud& hull) {
   Mass mass;
-  const FacetMesh<double>* facets = hull.facets();
+  const FacetMesh* facets = hull.facets();
   if (!facets) return mass;
   // Relative to a vertex, for digits.
   const Vec3<double> base = hull.points()[0];
@@ -35,21 +35,21 @@ Mass mass_of(const PointCloud<double>& hull) {
   return mass;
 }
 
-Mass volume_of(const Shape<double>& shape) {
+Mass volume_of(const Shape& shape) {
   constexpr double pi = std::numbers::pi;
   Mass mass;
-  if (const auto* sphere = std::get_if<Sphere<double>>(&shape.kind)) {
+  if (const auto* sphere = std::get_if<Sphere>(&shape.kind)) {
     mass.volume = 4 * pi / 3 * sphere->radius * sphere->radius * sphere->radius;
-  } else if (const auto* capsule = std::get_if<Capsule<double>>(&shape.kind)) {
+  } else if (const auto* capsule = std::get_if<Capsule>(&shape.kind)) {
     const double r = capsule->radius;
     mass.volume = pi * r * r * (2 * capsule->half_height + 4 * r / 3);
-  } else if (const auto* cylinder = std::get_if<Cylinder<double>>(&shape.kind)) {
+  } else if (const auto* cylinder = std::get_if<Cylinder>(&shape.kind)) {
     mass.volume = 2 * pi * cylinder->radius * cylinder->radius * cylinder->half_height;
-  } else if (const auto* box = std::get_if<Box<double>>(&shape.kind)) {
+  } else if (const auto* box = std::get_if<Box>(&shape.kind)) {
     mass.volume = 8 * box->half_extents.prod();
-  } else if (const auto* ellipsoid = std::get_if<Ellipsoid<double>>(&shape.kind)) {
+  } else if (const auto* ellipsoid = std::get_if<Ellipsoid>(&shape.kind)) {
     mass.volume = 4 * pi / 3 * ellipsoid->radii.prod();
-  } else if (const auto* hull = std::get_if<Hull<double>>(&shape.kind)) {
+  } else if (const auto* hull = std::get_if<Hull>(&shape.kind)) {
     mass = mass_of(hull->points);
   }
   return mass;

@@ -19,10 +19,10 @@ struct Mass {
 
 /// Sums, for a hull, over tetrahedra of its surface's triangles (Mirtich, Fast and accurate
 /// computation of polyhedral mass properties, 1996, by simplices). Flat hulls have none.
-Mass mass_of(const PointCloud<double>& hull);
+Mass mass_of(const PointCloud& hull);
 
 /// Volume and centre of the shapes that robots' files have; no inertia. Flat shapes have none.
-Mass volume_of(const Shape<double>& shape);
+Mass volume_of(const Shape& shape);
 
 /// The box of the same inertia: half its sides, the longest last, and its pose.
 struct InertiaBox {

@@ -11,8 +11,8 @@ namespace {
 
 /// Largest depth of vertices below the surface of their hull: 0 but for rounding for a convex
 /// mesh.
-double deepest_below(const std::vector<Vec3<double>>& vertices, const PointCloud<double>& hull) {
-  const FacetMesh<double>* facets = hull.facets();
+double deepest_below(const std::vector<Vec3<double>>& vertices, const PointCloud& hull) {
+  const FacetMesh* facets = hull.facets();
   if (!facets) return 0;
   Vec3<double> lower = hull.points()[0], upper = lower;
   for (const Vec3<double>& vertex : hull.points()) {
@@ -47,19 +47,18 @@ std::vector<Vec3<double>> vertices_of(const TriangleMesh& mesh) {
 
 }  // namespace
 
-Shape<double> hull_of(const TriangleMesh& mesh) {
-  return Hull<double>{PointCloud<double>(vertices_of(mesh))};
+Shape hull_of(const TriangleMesh& mesh) {
+  return Hull{PointCloud(vertices_of(mesh))};
 }
 
 std::vector<Vec3<double>> hull_points_of(const TriangleMesh& mesh) {
-  const PointCloud<double> hull(vertices_of(mesh));
+  const PointCloud hull(vertices_of(mesh));
   return {hull.points().begin(), hull.points().end()};
 }
 
 MeshFacts facts_of(const ModelMesh& mesh) {
   MeshFacts facts;
-  const auto add_hull = [&](const std::vector<Vec3<double>>& vertices,
-                            const PointCloud<double>& hull) {
+  const auto add_hull = [&](const std::vector<Vec3<double>>& vertices, const PointCloud& hull) {
     facts.hull_points += hull.points().size();
     facts.deepest = std::max(facts.deepest, deepest_below(vertices, hull));
   };
@@ -74,7 +73,7 @@ MeshFacts facts_of(const ModelMesh& mesh) {
     facts.repeated += faults.repeated;
     facts.open_edges += faults.open_edges;
     const std::vector<Vec3<double>> vertices = vertices_of(*part.surface);
-    add_hull(vertices, PointCloud<double>(vertices));
+    add_hull(vertices, PointCloud(vertices));
   }
   return facts;
 }

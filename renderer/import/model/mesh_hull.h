@@ -9,7 +9,7 @@
 namespace minkray {
 
 /// The hull of the triangles' vertices, as a shape and as its points.
-Shape<double> hull_of(const TriangleMesh& mesh);
+Shape hull_of(const TriangleMesh& mesh);
 std::vector<Vec3<double>> hull_points_of(const TriangleMesh& mesh);
 
 /// Facts about a mesh file for `minkray info`.

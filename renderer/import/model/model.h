@@ -64,7 +64,7 @@ struct ModelGeom {
   int link = -1;     ///< -1: the world
   Affine<double> pose;
   /// Geometry: a shape, a mesh, or with neither the half-space under z = 0.
-  std::optional<Shape<double>> shape = {};
+  std::optional<Shape> shape = {};
   std::shared_ptr<const TriangleMesh> mesh = {};
   Touch touches = Touch::as_seen;                         ///< contact shape of a mesh
   std::shared_ptr<const MeshAttributes> attributes = {};  ///< of the mesh, if it has any
@@ -86,7 +86,7 @@ struct ModelMesh {
   /// Shown form of each part: a surface, or a hull and its vertices.
   struct Part {
     std::shared_ptr<const TriangleMesh> surface = {};
-    std::optional<PointCloud<double>> hull = {};
+    std::optional<PointCloud> hull = {};
     std::vector<Vec3<double>> vertices = {};
   };
   std::vector<Part> parts;

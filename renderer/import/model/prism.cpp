@@ -62,11 +62,11 @@ bool is_convex(const Outline& corners) {
   return count >= 3 && left + right > 0 && (left == 0 || right == 0) && turns_back <= 2;
 }
 
-Shape<double> prism(const std::vector<Corner>& corners, double height) {
+Shape prism(const std::vector<Corner>& corners, double height) {
   std::vector<Vec3<double>> points;
   for (const Corner& corner : corners)
     for (const double z : {0.0, height}) points.emplace_back(corner[0], corner[1], z);
-  return Hull<double>{PointCloud<double>(points)};
+  return Hull{PointCloud(points)};
 }
 
 class Decomposition {
@@ -158,11 +158,11 @@ class Decomposition {
 
 }  // namespace
 
-std::vector<Shape<double>> prisms_of(const std::vector<Outline>& outlines, double height) {
+std::vector<Shape> prisms_of(const std::vector<Outline>& outlines, double height) {
   std::vector<Outline> corners;
   for (const Outline& outline : outlines) corners.push_back(without_repeats(outline));
   if (corners.size() == 1 && is_convex(corners[0])) return {prism(corners[0], height)};
-  std::vector<Shape<double>> prisms;
+  std::vector<Shape> prisms;
   Decomposition decomposition(corners);
   for (const Trapezoid& trapezoid : decomposition.trapezoids()) {
     const std::vector<Corner> base = decomposition.corners_of(trapezoid);

@@ -16,6 +16,6 @@ using Outline = std::vector<std::array<double, 2>>;
 
 /// The prisms between z = 0 and z = height, which must be > 0. Throws std::runtime_error if the
 /// outlines enclose nothing, or need more than 100,000 prisms.
-std::vector<Shape<double>> prisms_of(const std::vector<Outline>& outlines, double height);
+std::vector<Shape> prisms_of(const std::vector<Outline>& outlines, double height);
 
 }  // namespace minkray

@@ -65,7 +65,7 @@ void SdfGeometry::add_polylines(const XmlElement& geometry, ModelGeom geom) {
     return files_.wrong(first, "height: must be >= 0 (got " + std::to_string(height) + ")");
   geom.kind = "polyline";
   try {
-    const std::vector<Shape<double>> prisms = prisms_of(outlines, height);
+    const std::vector<Shape> prisms = prisms_of(outlines, height);
     for (std::size_t i = 0; i < prisms.size(); ++i) {
       ModelGeom one = geom;
       if (prisms.size() > 1 && !geom.name.empty())

@@ -105,7 +105,7 @@ BodiesOfPairs::BodiesOfPairs(const minkray_bodies* given, std::size_t count, con
 }
 
 const ContactShape& PosedBody::shape_or_point() const {
-  static const ContactShape point{Shape<double>(Point<double>())};
+  static const ContactShape point{Shape(Point())};
   return mesh_ ? point : *shape_;
 }
 

@@ -77,7 +77,7 @@ class CustomSupport final : public SupportSource, public BatchSource {
 };
 
 /// The custom shapes that a shape is made of, each once.
-std::vector<std::shared_ptr<const CustomSupport>> customs_of(const Shape<double>& shape);
+std::vector<std::shared_ptr<const CustomSupport>> customs_of(const Shape& shape);
 
 /// True if one of them wants many directions per call.
 bool are_gathered(const std::vector<std::shared_ptr<const CustomSupport>>& customs);

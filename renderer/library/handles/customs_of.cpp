@@ -15,7 +15,7 @@ using Customs = std::vector<std::shared_ptr<const CustomSupport>>;
 /// twenty times over, has it a million times.
 class CustomsWalk {
  public:
-  void of(const Shape<double>& shape) {
+  void of(const Shape& shape) {
     std::visit(
         [&]<class S>(const S& kind) {
           if constexpr (declared_by<S>.by_program)
@@ -32,9 +32,9 @@ class CustomsWalk {
   void add(std::shared_ptr<const CustomSupport> custom) {
     if (known_.insert(custom.get()).second) customs.push_back(std::move(custom));
   }
-  void of_member(const Nested<double>& operand) { of(*operand); }
-  void of_member(const ShapeList<double>& operands) {
-    for (const Nested<double>& operand : operands) of(*operand);
+  void of_member(const Nested& operand) { of(*operand); }
+  void of_member(const ShapeList& operands) {
+    for (const Nested& operand : operands) of(*operand);
   }
   template <class Member>
   void of_member(const Member&) {}
@@ -44,7 +44,7 @@ class CustomsWalk {
 
 }  // namespace
 
-Customs customs_of(const Shape<double>& shape) {
+Customs customs_of(const Shape& shape) {
   CustomsWalk walk;
   walk.of(shape);
   return std::move(walk.customs);

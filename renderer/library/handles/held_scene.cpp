@@ -301,8 +301,7 @@ void HeldScene::remove(std::uint32_t number) {
   removed_.insert(number);
   poses_.erase(number);
   Instances& instances = changed();
-  if (instances.has_shape(number))
-    instances.replace(number, instances.define(Shape<double>(Point<double>())));
+  if (instances.has_shape(number)) instances.replace(number, instances.define(Shape(Point())));
   if (customs_.empty()) return;
   known_customs_.clear();
   customs_.clear();

@@ -18,15 +18,14 @@ namespace minkray {
 /// Immutable; prepared data is made on first use.
 class HeldShape {
  public:
-  explicit HeldShape(Shape<double> shape)
-      : shape_(std::move(shape)), customs_(customs_of(*shape_)) {}
+  explicit HeldShape(Shape shape) : shape_(std::move(shape)), customs_(customs_of(*shape_)) {}
   explicit HeldShape(std::shared_ptr<const TriangleMesh> mesh)
-      : mesh_(std::move(mesh)), shape_(Point<double>()) {}
+      : mesh_(std::move(mesh)), shape_(Point()) {}
 
   /// Null unless it is a mesh. The members below throw CallError for a mesh, which is not convex.
   const std::shared_ptr<const TriangleMesh>& mesh() const { return mesh_; }
 
-  const Nested<double>& shape() const { return convex().shape_; }
+  const Nested& shape() const { return convex().shape_; }
   const std::vector<std::shared_ptr<const CustomSupport>>& customs() const { return customs_; }
 
   /// For queries on pairs.
@@ -35,17 +34,15 @@ class HeldShape {
     return *contact_.get([&] { return std::make_shared<const ContactShape>(*shape_); });
   }
   /// For rays at the shape where it is.
-  const PreparedShape<double>& prepared() const {
+  const PreparedShape& prepared() const {
     convex();
-    return *prepared_.get([&] {
-      return std::make_shared<const PreparedShape<double>>(definition(), Affine<double>());
-    });
+    return *prepared_.get(
+        [&] { return std::make_shared<const PreparedShape>(definition(), Affine<double>()); });
   }
   /// For rays.
-  const std::shared_ptr<const ShapeDefinition<double>>& definition() const {
+  const std::shared_ptr<const ShapeDefinition>& definition() const {
     convex();
-    return definition_.get(
-        [&] { return std::make_shared<const ShapeDefinition<double>>(*shape_); });
+    return definition_.get([&] { return std::make_shared<const ShapeDefinition>(*shape_); });
   }
 
  private:
@@ -77,11 +74,11 @@ class HeldShape {
   };
 
   std::shared_ptr<const TriangleMesh> mesh_;
-  Nested<double> shape_;
+  Nested shape_;
   std::vector<std::shared_ptr<const CustomSupport>> customs_;
   Once<ContactShape> contact_;
-  Once<ShapeDefinition<double>> definition_;
-  Once<PreparedShape<double>> prepared_;
+  Once<ShapeDefinition> definition_;
+  Once<PreparedShape> prepared_;
 };
 
 /// All that there are.

@@ -95,8 +95,7 @@ class Arguments {
     return read_member(object, field, member, no_files_);
   }
 
-  bool fill_from(const minkray_parameter& given, const Parameter& field,
-                 PointCloud<double>& cloud) {
+  bool fill_from(const minkray_parameter& given, const Parameter& field, PointCloud& cloud) {
     const std::span<const double> given_numbers = numbers(given);
     if (given_numbers.empty() || given_numbers.size() % 3 != 0) {
       mistakes_.add(path(field), "must be points of three numbers each, at least one (got " +
@@ -112,7 +111,7 @@ class Arguments {
       }
     }
     try {
-      cloud = PointCloud<double>(std::move(points));
+      cloud = PointCloud(std::move(points));
     } catch (const std::runtime_error& error) {
       mistakes_.add(path(field), error.what());
       return false;
@@ -120,33 +119,32 @@ class Arguments {
     return true;
   }
 
-  std::optional<ShapeList<double>> operands(const minkray_parameter& given, const Parameter& field,
-                                            std::size_t least, std::size_t most) {
+  std::optional<ShapeList> operands(const minkray_parameter& given, const Parameter& field,
+                                    std::size_t least, std::size_t most) {
     const std::size_t count = given.shapes ? given.shape_count : 0;
     if (count < least || count > most) {
       mistakes_.add(path(field), (most == 1 ? "must be a shape (got " : "must be shapes (got ") +
                                      std::to_string(count) + " of them)");
       return std::nullopt;
     }
-    ShapeList<double> list;
+    ShapeList list;
     for (std::size_t i = 0; i < count; ++i)
       list.push_back(shape_of(given.shapes[i], std::string(field.name).c_str()).shape());
     return list;
   }
-  bool fill_from(const minkray_parameter& given, const Parameter& field, Nested<double>& operand) {
+  bool fill_from(const minkray_parameter& given, const Parameter& field, Nested& operand) {
     const auto list = operands(given, field, 1, 1);
     if (list) operand = list->front();
     return list.has_value();
   }
-  bool fill_from(const minkray_parameter& given, const Parameter& field,
-                 ShapeList<double>& operand_list) {
+  bool fill_from(const minkray_parameter& given, const Parameter& field, ShapeList& operand_list) {
     auto list = operands(given, field, 1, std::numeric_limits<std::size_t>::max());
     if (!list) return false;
     operand_list = *std::move(list);
     return true;
   }
 
-  bool fill_from(const minkray_parameter& given, const Parameter& field, AffineMap<double>& map) {
+  bool fill_from(const minkray_parameter& given, const Parameter& field, AffineMap& map) {
     const std::span<const double> rows = numbers(given);
     if (rows.size() != 12) {
       mistakes_.add(path(field), "must be 12 numbers: three rows of a matrix and a translation");
@@ -154,7 +152,7 @@ class Arguments {
     }
     minkray_pose pose;
     std::copy(rows.begin(), rows.end(), &pose.rows[0][0]);
-    map = AffineMap<double>(pose_of(&pose, std::string(field.name).c_str()));
+    map = AffineMap(pose_of(&pose, std::string(field.name).c_str()));
     return true;
   }
 
@@ -165,14 +163,14 @@ class Arguments {
 
 }  // namespace
 
-Shape<double> make_shape(std::string_view kind, std::span<const minkray_parameter> parameters) {
+Shape make_shape(std::string_view kind, std::span<const minkray_parameter> parameters) {
   for (const minkray_parameter& parameter : parameters) {
     require(parameter.name, "parameters[].name");
     require_room(parameter.number_count, sizeof(double), "parameters[].number_count");
     require_room(parameter.shape_count, sizeof(minkray_shape), "parameters[].shape_count");
   }
-  std::optional<Shape<double>> made;
-  for_each_alternative(std::type_identity<ShapeVariant<double>>(), [&]<class S>() {
+  std::optional<Shape> made;
+  for_each_alternative(std::type_identity<ShapeVariant>(), [&]<class S>() {
     if (S::name != kind) return;
     S shape;
     Arguments arguments(kind, parameters);
@@ -192,7 +190,7 @@ Shape<double> make_shape(std::string_view kind, std::span<const minkray_paramete
   });
   if (!made)
     wrong_use("kind: must be the name of a shape (got \"" + printable(kind, 60) + "\"; " +
-              suggestion(kind, type_names<ShapeVariant<double>>()) + ")");
+              suggestion(kind, type_names<ShapeVariant>()) + ")");
   return *std::move(made);
 }
 

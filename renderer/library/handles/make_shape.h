@@ -12,6 +12,6 @@ namespace minkray {
 
 /// Throws CallError with all mistakes: an unknown kind or parameter, one that is missing or cannot
 /// be.
-Shape<double> make_shape(std::string_view kind, std::span<const minkray_parameter> parameters);
+Shape make_shape(std::string_view kind, std::span<const minkray_parameter> parameters);
 
 }  // namespace minkray

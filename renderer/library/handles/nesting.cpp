@@ -11,7 +11,7 @@ namespace {
 
 class NestingWalk {
  public:
-  void of(const Shape<double>& shape) {
+  void of(const Shape& shape) {
     if (++count_ > most_shapes_in_one)
       wrong_use("shape: must have at most " + std::to_string(most_shapes_in_one) + " shapes in it");
     if (++depth_ > deepest_shape)
@@ -26,9 +26,9 @@ class NestingWalk {
   }
 
  private:
-  void of_member(const Nested<double>& operand) { of(*operand); }
-  void of_member(const ShapeList<double>& operands) {
-    for (const Nested<double>& operand : operands) of(*operand);
+  void of_member(const Nested& operand) { of(*operand); }
+  void of_member(const ShapeList& operands) {
+    for (const Nested& operand : operands) of(*operand);
   }
   template <class Member>
   void of_member(const Member&) {}
@@ -38,7 +38,7 @@ class NestingWalk {
 
 }  // namespace
 
-void check_nesting(const Shape<double>& shape) {
+void check_nesting(const Shape& shape) {
   NestingWalk().of(shape);
 }
 

@@ -17,6 +17,6 @@ inline constexpr std::size_t deepest_shape = 1000;
 inline constexpr std::size_t most_shapes_in_one = std::size_t{1} << 20;
 
 /// Throws CallError if the shape is larger.
-void check_nesting(const Shape<double>& shape);
+void check_nesting(const Shape& shape);
 
 }  // namespace minkray

@@ -46,7 +46,7 @@ bool misses_box(const Bounds<double>& box, const Ray<double>& ray, double t_end)
 /// contradict each other.
 class Witnesses {
  public:
-  explicit Witnesses(const Shape<double>& shape) : shape_(shape) {}
+  explicit Witnesses(const Shape& shape) : shape_(shape) {}
 
   SupportFunction recording() {
     return [this](const Vec3<double>& n) {
@@ -65,7 +65,7 @@ class Witnesses {
   }
 
  private:
-  const Shape<double>& shape_;
+  const Shape& shape_;
   std::vector<std::pair<Vec3<double>, Vec3<double>>> asked_;
 };
 
@@ -96,10 +96,9 @@ Prover::Prover(const HeldScene& scene) : world_(scene.world()), bodies_(world_.i
         continue;
       }
       if (has_customs) body.customs = customs_of(object.shape);
-      body.shape = object.pose == Affine<double>{}
-                       ? object.shape
-                       : Shape<double>(Transform<double>{object.shape, object.pose});
-      body.bounds = bounds_of<double>(*body.shape);
+      body.shape = object.pose == Affine<double>{} ? object.shape
+                                                   : Shape(Transform{object.shape, object.pose});
+      body.bounds = bounds_of(*body.shape);
     }
   });
 }

@@ -22,7 +22,7 @@ class Prover {
   /// One instance in the world.
   struct Body {
     bool is_removed = false;
-    std::optional<Shape<double>> shape;  ///< none: a half-space or mesh
+    std::optional<Shape> shape;  ///< none: a half-space or mesh
     std::optional<PosedMesh> mesh;
     HalfSpaceBody<double> half_space;
     Bounds<double> bounds;

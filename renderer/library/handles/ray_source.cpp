@@ -106,7 +106,7 @@ void plain_hit(const Ray<double>& ray, const BlockHits& hits, std::size_t i, min
     for (double& x : to.normal) x = 0;
     return;
   }
-  const CastPacket<double>& casts = hits.casts[i / 4];
+  const CastPacket& casts = hits.casts[i / 4];
   const std::size_t lane = i % 4;
   to.status = casts.hit >> lane & 1u ? MINKRAY_HIT : MINKRAY_INSIDE;
   const double base = casts.t_base[lane], offset = casts.t_offset[lane];

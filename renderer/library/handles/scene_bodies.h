@@ -85,7 +85,7 @@ class SceneBodies {
   void add_half_spaces_near(double within, std::vector<ScenePair>& pairs) const;
 
   const HeldScene& scene_;
-  const ContactShape point_{Shape<double>(Point<double>())};
+  const ContactShape point_{Shape(Point())};
   std::optional<ContactWorld> world_;
   std::vector<Ball> balls_;             ///< of each body
   std::vector<std::uint32_t> objects_;  ///< of each body

@@ -76,7 +76,7 @@ SceneBodies::SceneBodies(const HeldScene& scene) : scene_(scene) {
       continue;
     }
     const std::uint32_t number = instances.definition_of(i);
-    const Shape<double>& shape = instances.definition(number).original_shape();
+    const Shape& shape = instances.definition(number).original_shape();
     body_of_[i] = static_cast<std::uint32_t>(bodies.size());
     objects_.push_back(i);
     if (is_rigid(pose)) {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
-#include "core/derived/convert.h"
 #include "core/geometry/convex_hull.h"
 #include "tests/support/aimed_rays.h"
 #include "tests/support/sample_shapes.h"
@@ -15,7 +14,7 @@ namespace {
 std::vector<SampleShape> certified_shapes() {
   std::vector<SampleShape> all = sample_shapes();
   for (std::uint64_t seed = 300; seed < 340; ++seed) {
-    const Shape<double> shape = random_nesting(seed);
+    const Shape shape = random_nesting(seed);
     all.push_back({"seed " + std::to_string(seed) + " " + name_of_nesting(shape), shape});
   }
   return all;
@@ -26,7 +25,7 @@ std::vector<SampleShape> certified_shapes() {
 constexpr double allowed_epsilons = 2 * 512;
 
 /// True if the support points span space.
-bool is_solid(const Shape<double>& shape) {
+bool is_solid(const Shape& shape) {
   Random random(51);
   std::vector<Vec3<double>> points;
   for (int i = 0; i < 64; ++i) points.push_back(shape.support(random.direction()));
@@ -34,14 +33,12 @@ bool is_solid(const Shape<double>& shape) {
   return round_frame(points, flatness).rank == 3;
 }
 
-template <class T>
 struct Chord {
-  CastResult<T> entry, exit;
+  CastResult<double> entry, exit;
 };
 
-template <class T>
-Chord<T> chord_of(const PreparedShape<T>& shape, const Ray<T>& ray, SolverKind solver) {
-  CastOptions<T> options;
+Chord chord_of(const PreparedShape& shape, const Ray<double>& ray, SolverKind solver) {
+  CastOptions options;
   options.solver = solver;
   return {cast_ray(shape, ray, options), cast_exit(shape, ray, options)};
 }
@@ -52,25 +49,22 @@ struct CountedCasts {
 
 /// Calls visit(name, shape, ray, solver) for many rays at all solid shapes; about half of them
 /// hit.
-template <class T, class Visit>
+template <class Visit>
 void for_rays(int count, double distance, const Visit& visit) {
   for (const SampleShape& sample : certified_shapes()) {
-    const Shape<T> shape = convert<T>(sample.shape);
-    const Bounds<double> bounds = bounds_of<double>(convert<double>(shape));
+    const Shape shape = sample.shape;
+    const Bounds<double> bounds = bounds_of(shape);
     if (!is_solid(sample.shape)) continue;
-    const PreparedShape<T> prepared(shape);
+    const PreparedShape prepared(shape);
     AimedRays rays(bounds, 21, distance);
-    const auto in_T = [](const Ray<double>& ray) {
-      return Ray<T>{ray.origin.cast<T>(), ray.direction.cast<T>()};
-    };
     const double spread = rays.spread_for_half(
-        [&](const Ray<double>& ray) { return cast_ray(prepared, in_T(ray)).found(); });
+        [&](const Ray<double>& ray) { return cast_ray(prepared, ray).found(); });
     CountedCasts counted;
     for (const SolverDescription& solver : accurate_solvers()) {
       for (int i = 0; i < count; ++i) {
         ++counted.rays;
         counted.hits += visit(sample.name + ", solver " + std::string(solver.name), shape, prepared,
-                              in_T(rays.next(spread)), solver.kind);
+                              rays.next(spread), solver.kind);
       }
     }
     EXPECT_GT(counted.hits, 0.3 * counted.rays) << sample.name;
@@ -78,105 +72,88 @@ void for_rays(int count, double distance, const Visit& visit) {
   }
 }
 
-template <class T>
-class CastTruths : public ::testing::Test {};
-using Scalars = ::testing::Types<float, double>;
-TYPED_TEST_SUITE(CastTruths, Scalars);
-
-template <class T>
-double radius_of(const PreparedShape<T>& shape) {
-  return double(shape.definition().bounds_of(Affine<T>{}).half_extents().norm());
+double radius_of(const PreparedShape& shape) {
+  return double(shape.definition().bounds_of(Affine<double>{}).half_extents().norm());
 }
 
 /// The certificate of a hit: its plane touches the shape, and the hit point lies on it. For a
 /// miss: no point of the shape lies on the ray's side of the plane. Checked with supports alone.
-TYPED_TEST(CastTruths, planes_of_hits_touch_and_planes_of_misses_separate) {
-  using T = TypeParam;
-  const double epsilon = double(std::numeric_limits<T>::epsilon());
-  for_rays<T>(60, 3,
-              [&](const std::string& name, const Shape<T>& shape, const PreparedShape<T>& prepared,
-                  const Ray<T>& ray, SolverKind solver) {
-                CastOptions<T> options;
-                options.solver = solver;
-                const CastResult<T> result = cast_ray(prepared, ray, options);
-                const Shape<double> same = convert<double>(shape);
-                const Ray<double> exact{ray.origin.template cast<double>(),
-                                        ray.direction.template cast<double>()};
-                const Vec3<double> n = result.normal.template cast<double>();
-                const double radius = radius_of(prepared);
-                // In float the GJK ray cast does not converge for about one of 10,000 rays at
-                // polytopes; the automatic choice then runs the jet cast.
-                if (std::is_same_v<T, double> || solver != SolverKind::paper) {
-                  EXPECT_NE(result.status, Status::exhausted) << name;
-                }
-                EXPECT_NE(result.status, Status::inside) << name;
-                if (result.status == Status::hit) {
-                  const double t = double(result.t_base) + double(result.t_offset);
-                  EXPECT_NEAR(n.dot(exact.at(t)), n.dot(same.support(n)),
-                              allowed_epsilons * epsilon * radius)
-                      << name;
-                  EXPECT_LE(n.dot(exact.direction), 8 * epsilon * exact.direction.norm()) << name;
-                }
-                if (result.status == Status::miss) {
-                  const double above = n.dot(exact.origin - same.support(n));
-                  EXPECT_GE(above, -allowed_epsilons * epsilon * radius) << name;
-                  // Normals go through the rounded inverses of nested maps.
-                  EXPECT_GE(n.dot(exact.direction), -32 * epsilon * exact.direction.norm()) << name;
-                }
-                return result.found();
-              });
+TEST(CastTruths, planes_of_hits_touch_and_planes_of_misses_separate) {
+  const double epsilon = double(std::numeric_limits<double>::epsilon());
+  for_rays(60, 3,
+           [&](const std::string& name, const Shape& shape, const PreparedShape& prepared,
+               const Ray<double>& ray, SolverKind solver) {
+             CastOptions options;
+             options.solver = solver;
+             const CastResult<double> result = cast_ray(prepared, ray, options);
+             const Shape same = shape;
+             const Ray<double> exact{ray.origin.cast<double>(), ray.direction.cast<double>()};
+             const Vec3<double> n = result.normal.cast<double>();
+             const double radius = radius_of(prepared);
+             EXPECT_NE(result.status, Status::exhausted) << name;
+             EXPECT_NE(result.status, Status::inside) << name;
+             if (result.status == Status::hit) {
+               const double t = double(result.t_base) + double(result.t_offset);
+               EXPECT_NEAR(n.dot(exact.at(t)), n.dot(same.support(n)),
+                           allowed_epsilons * epsilon * radius)
+                   << name;
+               EXPECT_LE(n.dot(exact.direction), 8 * epsilon * exact.direction.norm()) << name;
+             }
+             if (result.status == Status::miss) {
+               const double above = n.dot(exact.origin - same.support(n));
+               EXPECT_GE(above, -allowed_epsilons * epsilon * radius) << name;
+               // Normals go through the rounded inverses of nested maps.
+               EXPECT_GE(n.dot(exact.direction), -32 * epsilon * exact.direction.norm()) << name;
+             }
+             return result.found();
+           });
 }
 
-TYPED_TEST(CastTruths, a_reversed_ray_enters_where_the_ray_leaves) {
-  using T = TypeParam;
-  const double epsilon = double(std::numeric_limits<T>::epsilon());
-  for_rays<T>(
+TEST(CastTruths, a_reversed_ray_enters_where_the_ray_leaves) {
+  const double epsilon = double(std::numeric_limits<double>::epsilon());
+  for_rays(
       60, 3,
-      [&](const std::string& name, const Shape<T>&, const PreparedShape<T>& prepared,
-          const Ray<T>& ray, SolverKind solver) {
+      [&](const std::string& name, const Shape&, const PreparedShape& prepared,
+          const Ray<double>& ray, SolverKind solver) {
         const auto [entry, exit] = chord_of(prepared, ray, solver);
         // From the other end: the same line, whose origin is rounded.
-        const Ray<T> back{Vec3<T>(ray.origin + T(4) * ray.direction), Vec3<T>(-ray.direction)};
-        CastOptions<T> options;
+        const Ray<double> back{Vec3<double>(ray.origin + 4.0 * ray.direction),
+                               Vec3<double>(-ray.direction)};
+        CastOptions options;
         options.solver = solver;
-        const CastResult<T> reversed = cast_ray(prepared, back, options);
+        const CastResult<double> reversed = cast_ray(prepared, back, options);
         if (entry.status == Status::hit && exit.status == Status::hit &&
             reversed.status == Status::hit) {
           // Entry and exit in order, as distances from the surface: a ray that runs along a thin
           // pancake crosses it at a shallow angle, and t is as much less certain.
-          const Vec3<double> direction = ray.direction.template cast<double>();
-          const double shallow =
-              std::min(std::abs(exit.normal.template cast<double>().dot(direction)),
-                       std::abs(entry.normal.template cast<double>().dot(direction)));
+          const Vec3<double> direction = ray.direction.cast<double>();
+          const double shallow = std::min(std::abs(exit.normal.cast<double>().dot(direction)),
+                                          std::abs(entry.normal.cast<double>().dot(direction)));
           EXPECT_LE((double(entry.t()) - double(exit.t())) * shallow,
                     allowed_epsilons * epsilon * radius_of(prepared))
               << name;
           // Both normals may be used where an edge leaves a choice.
-          const double towards =
-              std::min(std::abs(exit.normal.template cast<double>().dot(direction)),
-                       std::abs(reversed.normal.template cast<double>().dot(direction)));
+          const double towards = std::min(std::abs(exit.normal.cast<double>().dot(direction)),
+                                          std::abs(reversed.normal.cast<double>().dot(direction)));
           const double difference = std::abs(double(exit.t()) - (4 - double(reversed.t())));
           // The origin's rounding: a few epsilon of its distance, 4 lengths of the ray.
           const double moved =
-              4 * epsilon * (back.origin.template cast<double>().norm() + 4 * direction.norm());
-          // Known to be weaker: one ray in float at a plate of 1:2:0.001 leaves 1.8e3 epsilon off.
-          const double known = std::is_same_v<T, float> && name.starts_with("box, a plate") ? 2 : 1;
+              4 * epsilon * (back.origin.cast<double>().norm() + 4 * direction.norm());
           EXPECT_LE(difference * towards,
-                    known * allowed_epsilons * epsilon * radius_of(prepared) + 4 * moved)
+                    allowed_epsilons * epsilon * radius_of(prepared) + 4 * moved)
               << name;
         }
         return entry.found();
       });
 }
 
-TYPED_TEST(CastTruths, t_does_not_change_under_affine_maps) {
-  using T = TypeParam;
-  const double epsilon = double(std::numeric_limits<T>::epsilon());
+TEST(CastTruths, t_does_not_change_under_affine_maps) {
+  const double epsilon = double(std::numeric_limits<double>::epsilon());
   Random random(31);
-  for_rays<T>(
+  for_rays(
       40, 3,
-      [&](const std::string& name, const Shape<T>& shape, const PreparedShape<T>& prepared,
-          const Ray<T>& ray, SolverKind solver) {
+      [&](const std::string& name, const Shape& shape, const PreparedShape& prepared,
+          const Ray<double>& ray, SolverKind solver) {
         // Powers of two, quarter turns, mirrors and a shear by one half keep rays exact or nearly
         // so.
         const double scale[] = {0.5, 2, -1, 1};
@@ -185,21 +162,21 @@ TYPED_TEST(CastTruths, t_does_not_change_under_affine_maps) {
                 .asDiagonal();
         linear(0, 1) = 0.5 * linear(1, 1);
         const Vec3<double> by = random.in_cube();
-        const Affine<T> map{linear.cast<T>(), by.cast<T>()};
-        CastOptions<T> options;
+        const Affine<double> map{linear.cast<double>(), by.cast<double>()};
+        CastOptions options;
         options.solver = solver;
-        const CastResult<T> plain = cast_ray(prepared, ray, options);
-        const PreparedShape<T> image(shape, map);
-        const CastResult<T> mapped =
-            cast_ray(image, {map(ray.origin), Vec3<T>(map.linear * ray.direction)}, options);
+        const CastResult<double> plain = cast_ray(prepared, ray, options);
+        const PreparedShape image(shape, map);
+        const CastResult<double> mapped =
+            cast_ray(image, {map(ray.origin), Vec3<double>(map.linear * ray.direction)}, options);
         if (plain.status == Status::hit && mapped.status == Status::hit) {
           // Mapped normals: their planes' distances along the ray are compared, in t.
-          const double towards = std::abs(
-              plain.normal.template cast<double>().dot(ray.direction.template cast<double>()));
+          const double towards =
+              std::abs(plain.normal.cast<double>().dot(ray.direction.cast<double>()));
           // The mapped ray is rounded once more; singular values of the map lie between 1/3 and 3.
-          const double moved = 12 * epsilon *
-                               (ray.origin.template cast<double>().norm() + by.norm() +
-                                ray.direction.template cast<double>().norm());
+          const double moved =
+              12 * epsilon *
+              (ray.origin.cast<double>().norm() + by.norm() + ray.direction.cast<double>().norm());
           EXPECT_LE(std::abs(double(plain.t()) - double(mapped.t())) * towards,
                     9 * allowed_epsilons * epsilon * radius_of(prepared) + 9 * moved)
               << name;
@@ -208,31 +185,30 @@ TYPED_TEST(CastTruths, t_does_not_change_under_affine_maps) {
       });
 }
 
-TYPED_TEST(CastTruths, a_ray_from_within_says_inside) {
-  using T = TypeParam;
+TEST(CastTruths, a_ray_from_within_says_inside) {
   for (const SampleShape& sample : certified_shapes()) {
-    const Shape<T> shape = convert<T>(sample.shape);
+    const Shape shape = sample.shape;
     if (!is_solid(sample.shape)) continue;
-    const PreparedShape<T> prepared(shape);
+    const PreparedShape prepared(shape);
     Random random(41);
     // The mean of support points lies well inside of a solid.
-    Vec3<T> centre = Vec3<T>::Zero();
+    Vec3<double> centre = Vec3<double>::Zero();
     constexpr int directions = 64;
     for (int i = 0; i < directions; ++i)
-      centre += shape.support(Vec3<T>(random.direction().cast<T>())) / T(directions);
+      centre += shape.support(Vec3<double>(random.direction().cast<double>())) / double(directions);
     const auto half = [&](const Vec3<double>& n) {
-      return Vec3<T>(T(0.5) * (centre + shape.support(Vec3<T>(n.cast<T>()))));
+      return Vec3<double>(0.5 * (centre + shape.support(Vec3<double>(n.cast<double>()))));
     };
     for (const SolverDescription& solver : accurate_solvers()) {
-      CastOptions<T> options;
+      CastOptions options;
       options.solver = solver.kind;
       for (int i = 0; i < 20; ++i) {
-        const Vec3<T> origin = i == 0 ? centre : half(random.direction());
-        const CastResult<T> result =
-            cast_ray(prepared, {origin, Vec3<T>(random.direction().cast<T>())}, options);
+        const Vec3<double> origin = i == 0 ? centre : half(random.direction());
+        const CastResult<double> result =
+            cast_ray(prepared, {origin, Vec3<double>(random.direction().cast<double>())}, options);
         EXPECT_EQ(result.status, Status::inside)
             << sample.name << ", solver " << solver.name << ", origin " << origin.transpose();
-        EXPECT_EQ(result.t(), T(0));
+        EXPECT_EQ(result.t(), 0.0);
       }
     }
   }
@@ -240,12 +216,11 @@ TYPED_TEST(CastTruths, a_ray_from_within_says_inside) {
 
 /// Rays on faces, edges, corners and along them get any answer that is not given up, and if a hit,
 /// a right one.
-TYPED_TEST(CastTruths, rays_at_the_corners_and_along_the_faces_of_a_box_are_answered) {
-  using T = TypeParam;
-  const double epsilon = double(std::numeric_limits<T>::epsilon());
-  const PreparedShape<T> box(Box<T>{{1, 1, 1}});
+TEST(CastTruths, rays_at_the_corners_and_along_the_faces_of_a_box_are_answered) {
+  const double epsilon = double(std::numeric_limits<double>::epsilon());
+  const PreparedShape box(Box{{1, 1, 1}});
   for (const SolverDescription& solver : accurate_solvers()) {
-    CastOptions<T> options;
+    CastOptions options;
     options.solver = solver.kind;
     for (int x = -2; x <= 2; ++x)
       for (int y = -2; y <= 2; ++y)
@@ -253,10 +228,10 @@ TYPED_TEST(CastTruths, rays_at_the_corners_and_along_the_faces_of_a_box_are_answ
           for (int dy = -1; dy <= 1; ++dy)
             for (const int dz : {-1, 1}) {
               // Through (x/2, y/2) on the face's plane z = -dz, where (+-1, *) are edges.
-              const Vec3<T> target = {T(x) / 2, T(y) / 2, T(-dz)};
-              const Vec3<T> direction = {T(dx), T(dy), T(dz)};
-              const Ray<T> ray{Vec3<T>(target - T(2) * direction), direction};
-              const CastResult<T> result = cast_ray(box, ray, options);
+              const Vec3<double> target = {double(x) / 2, double(y) / 2, double(-dz)};
+              const Vec3<double> direction = {double(dx), double(dy), double(dz)};
+              const Ray<double> ray{Vec3<double>(target - 2.0 * direction), direction};
+              const CastResult<double> result = cast_ray(box, ray, options);
               EXPECT_NE(result.status, Status::exhausted);
               const bool on_face = std::abs(x) < 2 && std::abs(y) < 2;
               if (on_face) {
@@ -267,8 +242,10 @@ TYPED_TEST(CastTruths, rays_at_the_corners_and_along_the_faces_of_a_box_are_answ
               }
             }
     // In the plane of a face, and along an edge.
-    for (const Vec3<T>& origin : {Vec3<T>(-3, 1, 0), Vec3<T>(-3, 1, 1), Vec3<T>(-3, T(0.25), -1)}) {
-      const CastResult<T> result = cast_ray(box, Ray<T>{origin, Vec3<T>(1, 0, 0)}, options);
+    for (const Vec3<double>& origin :
+         {Vec3<double>(-3, 1, 0), Vec3<double>(-3, 1, 1), Vec3<double>(-3, 0.25, -1)}) {
+      const CastResult<double> result =
+          cast_ray(box, Ray<double>{origin, Vec3<double>(1, 0, 0)}, options);
       EXPECT_NE(result.status, Status::exhausted) << solver.name;
       if (result.status == Status::hit) {
         EXPECT_NEAR(double(result.t()), 2, allowed_epsilons * epsilon) << solver.name;

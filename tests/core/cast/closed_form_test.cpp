@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
-#include "core/derived/convert.h"
 #include "tests/support/aimed_rays.h"
 #include "tests/support/sample_shapes.h"
 #include "tests/support/solvers.h"
@@ -33,16 +32,15 @@ Vec3<Long> exact(const Vec3<double>& v) {
 }
 
 /// A ray, in numbers that T holds exactly, and the truth about it.
-template <class T>
 struct Query {
-  Ray<T> ray;
+  Ray<double> ray;
   bool must_hit, may_hit;  ///< different for rays that graze the shape
   Interval line;
   double towards;  ///< |direction . normal| at the entry; infinite next to the silhouette
 };
 
 /// Steepness of a line's entry, from two lines next to it.
-double steepness(const Shape<double>& shape, const Ray<double>& ray, Long entry, double radius) {
+double steepness(const Shape& shape, const Ray<double>& ray, Long entry, double radius) {
   const Vec3<Long> o = exact(ray.origin), d = exact(ray.direction);
   const Vec3<Long> u = d.unitOrthogonal() * (1e-7L * radius), v = d.cross(u) / d.norm();
   const auto beside = line_in_shape(shape, o + u, d), above = line_in_shape(shape, o + v, d);
@@ -52,29 +50,26 @@ double steepness(const Shape<double>& shape, const Ray<double>& ray, Long entry,
   return static_cast<double>(std::abs(normal.dot(d)) / normal.norm());
 }
 
-template <class T>
 struct Queries {
-  Shape<T> shape;
+  Shape shape;
   double radius, band;
-  std::vector<Query<T>> queries;
+  std::vector<Query> queries;
 };
 
-template <class T>
-Queries<T> queries_of(const Shape<double>& shape_in_double, int count, double distance,
-                      double scale) {
+Queries queries_of(const Shape& shape_in_double, int count, double distance, double scale) {
   // Numbers that T holds exactly, so that the oracle gets the same shape and ray.
-  const Shape<double> scaled =
-      scale == 1 ? shape_in_double
-                 : Shape<double>(Transform<double>{
-                       Nested<double>(shape_in_double),
-                       AffineMap<double>(Affine<double>{Mat3<double>::Identity() * scale,
-                                                        Vec3<double>::Zero()})});
-  const Shape<T> shape = convert<T>(scaled);
-  const Shape<double> same = convert<double>(shape);
-  const Bounds<double> bounds = bounds_of<double>(same);
+  const Shape scaled =
+      scale == 1
+          ? shape_in_double
+          : Shape(Transform{
+                Nested(shape_in_double),
+                AffineMap(Affine<double>{Mat3<double>::Identity() * scale, Vec3<double>::Zero()})});
+  const Shape shape = scaled;
+  const Shape same = shape;
+  const Bounds<double> bounds = bounds_of(same);
   const double radius = bounds.half_extents().norm();
   const Vec3<double> centre = bounds.centre();
-  const double epsilon = static_cast<double>(std::numeric_limits<T>::epsilon());
+  const double epsilon = static_cast<double>(std::numeric_limits<double>::epsilon());
 
   // Grown or shrunk by more than any error allowed: a line that meets the one and not the other
   // grazes the shape, and may do either. A far origin's own rounding does not count: it is exact.
@@ -93,12 +88,11 @@ Queries<T> queries_of(const Shape<double>& shape_in_double, int count, double di
 
   AimedRays rays(bounds, 11, distance);
   const double spread = rays.spread_for_half([&](const Ray<double>& ray) { return meets(ray, 1); });
-  Queries<T> all{shape, radius, static_cast<double>(band), {}};
+  Queries all{shape, radius, static_cast<double>(band), {}};
   for (int i = 0; i < count; ++i) {
     const Ray<double> wanted = rays.next(spread);
-    const Ray<T> ray_in_T{wanted.origin.template cast<T>(), wanted.direction.template cast<T>()};
-    const Ray<double> ray{ray_in_T.origin.template cast<double>(),
-                          ray_in_T.direction.template cast<double>()};
+    const Ray<double> ray_in_T{wanted.origin.cast<double>(), wanted.direction.cast<double>()};
+    const Ray<double> ray{ray_in_T.origin.cast<double>(), ray_in_T.direction.cast<double>()};
     const auto line = line_in_shape(same, exact(ray.origin), exact(ray.direction));
     const double towards = line->empty() ? 0 : steepness(same, ray, line->lower, radius);
     all.queries.push_back({ray_in_T, meets(ray, 1 - band), meets(ray, 1 + band), *line, towards});
@@ -106,19 +100,17 @@ Queries<T> queries_of(const Shape<double>& shape_in_double, int count, double di
   return all;
 }
 
-template <class T>
-Outcome ask(const Queries<T>& all, SolverKind solver) {
-  const double epsilon = static_cast<double>(std::numeric_limits<T>::epsilon());
+Outcome ask(const Queries& all, SolverKind solver) {
+  const double epsilon = static_cast<double>(std::numeric_limits<double>::epsilon());
   const double radius = all.radius;
-  const Shape<double> same = convert<double>(all.shape);
-  const PreparedShape<T> prepared(all.shape);
-  CastOptions<T> options;
+  const Shape same = all.shape;
+  const PreparedShape prepared(all.shape);
+  CastOptions options;
   options.solver = solver;
   Outcome outcome;
   for (const auto& [ray_in_T, must_hit, may_hit, line, towards_true] : all.queries) {
-    const Ray<double> ray{ray_in_T.origin.template cast<double>(),
-                          ray_in_T.direction.template cast<double>()};
-    const CastResult<T> result = cast_ray(prepared, ray_in_T, options);
+    const Ray<double> ray{ray_in_T.origin.cast<double>(), ray_in_T.direction.cast<double>()};
+    const CastResult<double> result = cast_ray(prepared, ray_in_T, options);
     ++outcome.rays;
     const bool hit = result.found();
     outcome.hits += hit;
@@ -143,7 +135,7 @@ Outcome ask(const Queries<T>& all, SolverKind solver) {
     if (!(hit && must_hit && may_hit)) continue;
 
     const Long t = static_cast<Long>(result.t_base) + static_cast<Long>(result.t_offset);
-    const Vec3<double> n = result.normal.template cast<double>();
+    const Vec3<double> n = result.normal.cast<double>();
     // Next to an edge either face may be answered: a spot as near to the one as to the other.
     const double towards = std::min(std::abs(n.dot(ray.direction)), towards_true);
     const double error = static_cast<double>(std::abs(t - line.lower)) * towards;
@@ -151,7 +143,7 @@ Outcome ask(const Queries<T>& all, SolverKind solver) {
       outcome.worst = in_epsilons;
       outcome.worst_ray = describe();
     }
-    const Vec3<double> x = (exact(ray.origin) + t * exact(ray.direction)).template cast<double>();
+    const Vec3<double> x = (exact(ray.origin) + t * exact(ray.direction)).cast<double>();
     const double depth = n.dot(same.support(n)) - n.dot(x);
     outcome.worst_normal = std::max(outcome.worst_normal, std::abs(depth) / (radius * epsilon));
     EXPECT_NEAR(n.norm(), 1, 8 * epsilon);
@@ -159,33 +151,15 @@ Outcome ask(const Queries<T>& all, SolverKind solver) {
   return outcome;
 }
 
-bool has_closed_form(const Shape<double>& shape) {
+bool has_closed_form(const Shape& shape) {
   return line_in_shape(shape, {-3, 0.1L, 0.2L}, {1, 0.1L, 0.1L}).has_value();
 }
 
-template <class T>
-class ClosedForms : public ::testing::Test {};
-using Scalars = ::testing::Types<float, double>;
-TYPED_TEST_SUITE(ClosedForms, Scalars);
-
-/// Cases known to be less accurate than they should be. To be taken off the list once they are
-/// right.
-template <class T>
-bool is_known_defect(const std::string& name, SolverKind solver) {
-  if (!std::is_same_v<T, float>) return false;
-  // The GJK ray cast: does not converge for 1 of 100 rays from 1e5 sizes away at a plate of 1 : 2
-  // : 0.001.
-  if (name == "box, a plate") return solver == SolverKind::paper;
-  return false;
-}
-
-template <class T>
 void expect_agreement(int count, double distance, double scale) {
   for (const SampleShape& sample : sample_shapes()) {
     if (!has_closed_form(sample.shape)) continue;
-    const Queries<T> queries = queries_of<T>(sample.shape, count, distance, scale);
+    const Queries queries = queries_of(sample.shape, count, distance, scale);
     for (const SolverDescription& solver : accurate_solvers()) {
-      if (is_known_defect<T>(sample.name, solver.kind)) continue;
       const std::string what = sample.name + ", solver " + std::string(solver.name);
       const Outcome outcome = ask(queries, solver.kind);
       EXPECT_EQ(outcome.wrong, 0) << what << ": " << outcome.first_wrong;
@@ -199,16 +173,16 @@ void expect_agreement(int count, double distance, double scale) {
   }
 }
 
-TYPED_TEST(ClosedForms, agree_with_every_solver) {
-  expect_agreement<TypeParam>(500, 3, 1);
+TEST(ClosedForms, agree_with_every_solver) {
+  expect_agreement(500, 3, 1);
 }
 
-TYPED_TEST(ClosedForms, agree_from_a_hundred_thousand_sizes_away) {
-  expect_agreement<TypeParam>(100, 1e5, 1);
+TEST(ClosedForms, agree_from_a_hundred_thousand_sizes_away) {
+  expect_agreement(100, 1e5, 1);
 }
 
-TYPED_TEST(ClosedForms, agree_at_a_centimetre_and_at_ten_kilometres) {
-  for (const double scale : {0.01, 1e4}) expect_agreement<TypeParam>(100, 3, scale);
+TEST(ClosedForms, agree_at_a_centimetre_and_at_ten_kilometres) {
+  for (const double scale : {0.01, 1e4}) expect_agreement(100, 3, scale);
 }
 
 }  // namespace

@@ -3,24 +3,22 @@
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
-#include "core/derived/convert.h"
 #include "core/derived/ellipsoid_sum.h"
 #include "tests/oracle/portal.h"
 #include "tests/support/ray_families.h"
-#include "tests/support/rounded.h"
 
 namespace minkray::testing {
 namespace {
 
-using S = Shape<double>;
+using S = Shape;
 
 S turned(const S& shape, const Vec3<double>& axis, double angle) {
   const Mat3<double> turn = Eigen::AngleAxis<double>(angle, axis.normalized()).toRotationMatrix();
-  return Transform<double>{shape, AffineMap<double>(Affine<double>{turn, {0.1, -0.2, 0.3}})};
+  return Transform{shape, AffineMap(Affine<double>{turn, {0.1, -0.2, 0.3}})};
 }
 
 S ellipsoid(double a, double b, double c) {
-  return Ellipsoid<double>{{a, b, c}};
+  return Ellipsoid{{a, b, c}};
 }
 
 struct NamedSum {
@@ -30,20 +28,19 @@ struct NamedSum {
 
 std::vector<NamedSum> ordinary() {
   const S egg = ellipsoid(1, 0.5, 0.25), other = turned(ellipsoid(0.3, 0.5, 1), {1, 2, 3}, 1.1);
-  return {
-      {"two, aligned", MinkowskiSum<double>{{egg, ellipsoid(0.3, 0.5, 1)}}},
-      {"two, turned", MinkowskiSum<double>{{egg, other}}},
-      {"three", MinkowskiSum<double>{{egg, other, turned(ellipsoid(1, 1, 0.2), {2, -1, 1}, 2)}}},
-      {"grown", Rounded<double>{0.1, egg}},
-      {"difference", MinkowskiDifference<double>{egg, other}}};
+  return {{"two, aligned", MinkowskiSum{{egg, ellipsoid(0.3, 0.5, 1)}}},
+          {"two, turned", MinkowskiSum{{egg, other}}},
+          {"three", MinkowskiSum{{egg, other, turned(ellipsoid(1, 1, 0.2), {2, -1, 1}, 2)}}},
+          {"grown", Rounded{0.1, egg}},
+          {"difference", MinkowskiDifference{egg, other}}};
 }
 
 /// Radii where one is negligible next to the others.
 std::vector<NamedSum> extreme() {
   const S needle = turned(ellipsoid(1, 0.01, 0.01), {1, 2, 3}, 1.1);
-  return {{"needles", MinkowskiSum<double>{{needle, ellipsoid(0.01, 1, 0.01)}}},
-          {"plate and ball", MinkowskiSum<double>{{turned(ellipsoid(1, 0.03, 0.001), {1, 2, 3}, 1),
-                                                   S(Sphere<double>{0.2})}}}};
+  return {{"needles", MinkowskiSum{{needle, ellipsoid(0.01, 1, 0.01)}}},
+          {"plate and ball",
+           MinkowskiSum{{turned(ellipsoid(1, 0.03, 0.001), {1, 2, 3}, 1), S(Sphere{0.2})}}}};
 }
 
 struct SumsOutcome {
@@ -51,21 +48,20 @@ struct SumsOutcome {
   double worst = 0;  ///< error of t times cosine, in units of R
 };
 
-template <class T>
 SumsOutcome cast_at(const S& wanted, RayFamily family, int count) {
-  const Shape<T> shape = convert<T>(wanted);
-  const S same = convert<double>(shape);
-  const PreparedShape<T> prepared(shape);
+  const Shape shape = wanted;
+  const S same = shape;
+  const PreparedShape prepared(shape);
   const PortalCast portal(same);
   FamilyRays rays(same, family, 71);
   const double R = rays.ball().radius;
   // Distance from the silhouette within which either result is right, in units of R.
-  const double band = std::is_same_v<T, float> ? 1e-6 : 1e-14;
+  const double band = 1e-14;
   SumsOutcome outcome;
   for (int i = 0; i < count; ++i) {
-    const Ray<T> ray = rounded_to<T>(rays.next());
-    const Ray<double> known = in_double(ray);
-    const CastResult<T> result = cast_ray(prepared, ray);
+    const Ray<double> ray = rays.next();
+    const Ray<double> known = ray;
+    const CastResult<double> result = cast_ray(prepared, ray);
     outcome.supports += result.supports;
     outcome.most = std::max(outcome.most, result.supports);
     outcome.exhausted += result.status == Status::exhausted;
@@ -80,7 +76,7 @@ SumsOutcome cast_at(const S& wanted, RayFamily family, int count) {
     outcome.misses += result.status == Status::miss;
     if (hit != hits) {
       // Moved by the band, does the ray do what the cast claims?
-      const Vec3<Long> n = result.normal.template cast<Long>();
+      const Vec3<Long> n = result.normal.cast<Long>();
       const Vec3<Long> beside =
           unit<double>((n - d * (n.dot(d) / d.squaredNorm())).cast<double>()).cast<Long>();
       const Vec3<Long> moved = o + beside * (band * R * (hit ? -1 : 1));
@@ -94,16 +90,15 @@ SumsOutcome cast_at(const S& wanted, RayFamily family, int count) {
   return outcome;
 }
 
-template <class T>
 void check(const NamedSum& named, RayFamily family, double supports, int most) {
   SCOPED_TRACE(named.name);
   const int count = 300;
-  const SumsOutcome outcome = cast_at<T>(named.shape, family, count);
+  const SumsOutcome outcome = cast_at(named.shape, family, count);
   EXPECT_EQ(outcome.wrong, 0);
   EXPECT_EQ(outcome.exhausted, 0);
   EXPECT_LT(outcome.undecided, count / 4);
   // A few roundings of a support plane.
-  EXPECT_LE(outcome.worst, 4 * std::numeric_limits<T>::epsilon());
+  EXPECT_LE(outcome.worst, 4 * std::numeric_limits<double>::epsilon());
   EXPECT_LE(outcome.supports, supports * count);
   EXPECT_LE(outcome.most, most);
   EXPECT_GT(outcome.hits, 0);
@@ -111,35 +106,31 @@ void check(const NamedSum& named, RayFamily family, double supports, int most) {
 
 TEST(SumOfEllipsoids, is_hit_to_rounding_by_one_support_call) {
   for (const NamedSum& named : ordinary()) {
-    check<float>(named, RayFamily::far, 1, 1);
     for (const RayFamily family : {RayFamily::random, RayFamily::grazing}) {
-      check<double>(named, family, 1, 1);
-      check<float>(named, family, 1, 1);
+      check(named, family, 1, 1);
     }
   }
 }
 
 TEST(SumOfEllipsoids, is_hit_by_degenerate_rays) {
   for (const NamedSum& named : ordinary()) {
-    check<double>(named, RayFamily::degenerate, 2, 10);
-    check<float>(named, RayFamily::degenerate, 2, 10);
+    check(named, RayFamily::degenerate, 2, 10);
   }
 }
 
 TEST(SumOfEllipsoids, of_needles_and_plates_is_hit_to_rounding) {
   for (const NamedSum& named : extreme()) {
-    check<double>(named, RayFamily::random, 4, 60);
-    check<float>(named, RayFamily::random, 4, 60);
+    check(named, RayFamily::random, 4, 60);
   }
 }
 
 TEST(SumOfEllipsoids, is_told_from_other_shapes) {
   for (const NamedSum& named : ordinary()) EXPECT_TRUE(is_ellipsoid_sum(named.shape)) << named.name;
-  const S egg = ellipsoid(1, 0.5, 0.25), box = Box<double>{{1, 1, 1}}, disk = Disk<double>{1};
+  const S egg = ellipsoid(1, 0.5, 0.25), box = Box{{1, 1, 1}}, disk = Disk{1};
   const std::vector<NamedSum> others = {
-      {"with a box", MinkowskiSum<double>{{egg, box}}},
-      {"with a disk", MinkowskiSum<double>{{egg, disk}}},
-      {"beside another", HullOf<double>{{egg, turned(egg, {1, 0, 0}, 1)}}}};
+      {"with a box", MinkowskiSum{{egg, box}}},
+      {"with a disk", MinkowskiSum{{egg, disk}}},
+      {"beside another", HullOf{{egg, turned(egg, {1, 0, 0}, 1)}}}};
   for (const NamedSum& named : others) EXPECT_FALSE(is_ellipsoid_sum(named.shape)) << named.name;
 }
 

@@ -2,14 +2,13 @@
 // Casts do not care for the frame or the unit of length: turned, moved and scaled together, ray and
 // shape meet at the same parameter.
 #include "core/cast/cast.h"
-#include "core/derived/convert.h"
 #include "tests/fuzz/extent.h"
 #include "tests/support/property.h"
 
 namespace minkray::testing {
 namespace {
 
-using S = Shape<double>;
+using S = Shape;
 using P = Vec3<double>;
 
 constexpr int draws = 3000;
@@ -22,7 +21,7 @@ struct Case {
 Case draw_case() {
   const std::string drawn = draw_bytes(128);
   fuzz::Bytes bytes(drawn);
-  const S shape = fuzz::shape_from<double>(bytes, false, 2);
+  const S shape = fuzz::shape_from(bytes, false, 2);
   const Ray<double> ray = fuzz::ray_from(bytes, shape, false);
   RC_LOG() << write_shape(shape).dump() << "\norigin " << ray.origin.transpose() << " direction "
            << ray.direction.transpose() << " t_max " << ray.t_max << '\n';
@@ -30,26 +29,22 @@ Case draw_case() {
 }
 
 Case mapped(const Case& original, const Affine<double>& map) {
-  return {S(Transform<double>{original.shape, AffineMap<double>(map)}),
+  return {S(Transform{original.shape, AffineMap(map)}),
           {map(original.ray.origin), map.linear * original.ray.direction, original.ray.t_max}};
 }
 
-template <class T = double>
-CastResult<T> cast(const Case& query) {
-  const Ray<double>& ray = query.ray;
-  return cast_ray(PreparedShape<T>(convert<T>(query.shape)),
-                  Ray<T>{ray.origin.cast<T>(), ray.direction.cast<T>(), T(ray.t_max)});
+CastResult<double> cast(const Case& query) {
+  return cast_ray(PreparedShape(query.shape), query.ray);
 }
 
 /// Allows, as a distance, the rounding of two casts (tests/core/cast/cast_truths_test.cpp),
 /// relative to the largest numbers that occur.
-template <class T>
 double rounding(const Case& a) {
   constexpr double allowed = 2048;
   const fuzz::Extent extent = fuzz::extent_of(a.shape);
   double reach = static_cast<double>(extent.size * extent.condition) + a.ray.origin.norm();
   if (std::isfinite(a.ray.t_max)) reach += a.ray.t_max * a.ray.direction.norm();
-  return allowed * double(std::numeric_limits<T>::epsilon()) * reach;
+  return allowed * double(std::numeric_limits<double>::epsilon()) * reach;
 }
 
 struct Counts {
@@ -57,15 +52,14 @@ struct Counts {
 };
 
 /// The case and its image under a map that keeps shapes similar, each with its answer.
-template <class T>
 void expect_same(const Case& plain, const Case& image, const Affine<double>& map, Counts& counts) {
-  const CastResult<T> a = cast<T>(plain), b = cast<T>(image);
+  const CastResult<double> a = cast(plain), b = cast(image);
   if (a.status == Status::exhausted || b.status == Status::exhausted) return;
   // The image's lengths in the plain case's.
   const double scale = map.linear.col(0).norm();
-  const double allowed = rounding<T>(plain) + rounding<T>(image) / scale;
+  const double allowed = rounding(plain) + rounding(image) / scale;
   (a.found() ? counts.hits : counts.misses) += 1;
-  const P n_a = a.normal.template cast<double>(), n_b = b.normal.template cast<double>();
+  const P n_a = a.normal, n_b = b.normal;
   if (a.found() && b.found()) {
     // As a distance between planes: t is as much less certain as the ray grazes.
     const double towards = std::max(std::abs(n_a.dot(plain.ray.direction)),
@@ -88,7 +82,7 @@ TEST(Equivariance, turned_and_moved_a_cast_finds_the_same) {
         const Case plain = draw_case();
         const P by = draw_direction();
         const Affine<double> map{draw_rotation(), by};
-        expect_same<double>(plain, mapped(plain, map), map, counts);
+        expect_same(plain, mapped(plain, map), map, counts);
       },
       draws);
   EXPECT_GT(counts.hits, draws / 4);
@@ -113,14 +107,13 @@ TEST(Equivariance, half_the_speed_takes_twice_as_long) {
   EXPECT_GT(hits, draws / 4);
 }
 
-template <class T>
 void expect_same_at(int exponent) {
   const Affine<double> map{Mat3<double>::Identity() * std::ldexp(1.0, exponent), P::Zero()};
   Counts counts;
   expect_always(
       [&] {
         const Case plain = draw_case();
-        expect_same<T>(plain, mapped(plain, map), map, counts);
+        expect_same(plain, mapped(plain, map), map, counts);
       },
       draws / 3);
   EXPECT_GT(counts.hits, draws / 12);
@@ -130,8 +123,7 @@ void expect_same_at(int exponent) {
 TEST(Equivariance, sizes_of_1e30_and_1e_30_are_like_any_other) {
   for (const int exponent : {-100, -60, 60, 100}) {
     SCOPED_TRACE(exponent);
-    expect_same_at<double>(exponent);
-    expect_same_at<float>(exponent);
+    expect_same_at(exponent);
   }
 }
 

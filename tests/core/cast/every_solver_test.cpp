@@ -12,11 +12,10 @@ using V = Vec3<double>;
 // Algorithm 1 was only tested with hits.
 TEST(Cast, of_every_solver_tells_hits_misses_and_insides_apart) {
   for (const SolverDescription& solver : solver_descriptions) {
-    CastOptions<double> options;
+    CastOptions options;
     options.solver = solver.kind;
-    for (const Shape<double>& shape :
-         {Shape<double>(Sphere<double>{1}), Shape<double>(Cylinder<double>{1, 1})}) {
-      const PreparedShape<double> prepared(shape);
+    for (const Shape& shape : {Shape(Sphere{1}), Shape(Cylinder{1, 1})}) {
+      const PreparedShape prepared(shape);
       const auto cast = [&](const V& origin, const V& direction) {
         return cast_ray(prepared, Ray<double>{origin, direction}, options);
       };

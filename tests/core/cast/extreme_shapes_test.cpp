@@ -5,11 +5,9 @@
 
 #include "core/cast/cast.h"
 #include "core/cast/packet_cast.h"
-#include "core/derived/convert.h"
 #include "core/proof/check_certificate.h"
 #include "tests/support/random.h"
 #include "tests/support/ray_families.h"
-#include "tests/support/rounded.h"
 
 namespace minkray::testing {
 namespace {
@@ -38,8 +36,7 @@ struct EllipsoidTruth {
   bool hit, certain;
   Long t;
 };
-template <class T>
-EllipsoidTruth truth_of(const Vec3<T>& radii, const Ray<T>& ray) {
+EllipsoidTruth truth_of(const Vec3<double>& radii, const Ray<double>& ray) {
   Vec3<Long> o, d;
   for (int i = 0; i < 3; ++i) {
     o[i] = Long(ray.origin[i]) / Long(radii[i]);
@@ -51,24 +48,23 @@ EllipsoidTruth truth_of(const Vec3<T>& radii, const Ray<T>& ray) {
   const Long t =
       inside ? 0 : (-o.dot(d) - std::sqrt(std::max(den, Long(0))) * d.norm()) / d.squaredNorm();
   // Ray and shape are rounded to the longest radius.
-  const Long rounding = 128 * std::numeric_limits<T>::epsilon() * Long(radii.maxCoeff());
+  const Long rounding = 128 * std::numeric_limits<double>::epsilon() * Long(radii.maxCoeff());
   const Long nearest = std::min(std::abs(den), std::abs(o.norm() - 1)) * Long(radii.minCoeff());
   return {inside || (den > 0 && t > 0), nearest > rounding, t};
 }
 
-template <class T>
 Answered check_ellipsoid(const Vec3<double>& wanted, int rays) {
   Random random(7);
-  const Vec3<T> radii = wanted.cast<T>();
-  const PreparedShape<T> prepared{Shape<T>(Ellipsoid<T>{radii})};
+  const Vec3<double> radii = wanted.cast<double>();
+  const PreparedShape prepared{Shape(Ellipsoid{radii})};
   EXPECT_TRUE(prepared.definition().is_extreme());
   EXPECT_FALSE(prepared.definition().has_packets());
   Answered answered;
   for (int i = 0; i < rays; ++i) {
-    const Ray<double> exact = ray_at(radii.template cast<double>(), random);
-    const Ray<T> ray{exact.origin.cast<T>(), exact.direction.cast<T>()};
+    const Ray<double> exact = ray_at(radii.cast<double>(), random);
+    const Ray<double> ray{exact.origin.cast<double>(), exact.direction.cast<double>()};
     const EllipsoidTruth truth = truth_of(radii, ray);
-    const CastResult<T> result = cast_ray(prepared, ray);
+    const CastResult<double> result = cast_ray(prepared, ray);
     if (result.status == Status::exhausted) {
       ++answered.exhausted;
       continue;
@@ -81,7 +77,7 @@ Answered check_ellipsoid(const Vec3<double>& wanted, int rays) {
     // Along the normal, in epsilons of the longest radius.
     const Long off = (Long(result.t_base) + Long(result.t_offset) - truth.t) *
                      Long(ray.direction.dot(result.normal));
-    EXPECT_LE(std::abs(off), 64 * std::numeric_limits<T>::epsilon() * radii.norm())
+    EXPECT_LE(std::abs(off), 64 * std::numeric_limits<double>::epsilon() * radii.norm())
         << wanted.transpose() << ", ray " << i;
   }
   return answered;
@@ -96,9 +92,7 @@ TEST(ExtremeShapes, ellipsoids_are_met_where_they_are) {
   };
   for (const Vec3<double>& radii :
        {Vec3<double>(1, 1, 1e-8), Vec3<double>(1, 1e-8, 1e-8), Vec3<double>(1, 1e-4, 1e-10)})
-    check(check_ellipsoid<double>(radii, 2000));
-  for (const Vec3<double>& radii : {Vec3<double>(1, 1, 1e-4), Vec3<double>(1, 1e-4, 1e-4)})
-    check(check_ellipsoid<float>(radii, 2000));
+    check(check_ellipsoid(radii, 2000));
 }
 
 /// A sliver against its plane and its three edges, in long double.
@@ -110,7 +104,7 @@ TEST(ExtremeShapes, slivers_are_met_where_they_are) {
     const double thin = std::pow(10.0, random.uniform(-8, -4));
     const std::array<Vec3<double>, 3> corners = {turn.col(0), Vec3<double>(-turn.col(0)),
                                                  Vec3<double>(thin * turn.col(1))};
-    const PreparedShape<double> prepared{Shape<double>(Triangle<double>{corners})};
+    const PreparedShape prepared{Shape(Triangle{corners})};
     ASSERT_TRUE(prepared.definition().is_extreme());
     const double u = random.uniform(-0.2, 1), v = random.uniform(-0.2, 1);
     const Vec3<double> through =
@@ -169,9 +163,9 @@ TurnedBox turned_box(const Vec3<double>& half_extents, Random& random) {
   return box;
 }
 
-void expect_inside(const Shape<double>& shape, const Vec3<double>& origin, Random& random) {
+void expect_inside(const Shape& shape, const Vec3<double>& origin, Random& random) {
   const Ray<double> ray{origin, random.direction()};
-  const CastResult<double> result = cast_ray(PreparedShape<double>(shape), ray);
+  const CastResult<double> result = cast_ray(PreparedShape(shape), ray);
   EXPECT_EQ(result.status, Status::inside) << origin.transpose();
   const SupportFunction support = supports_of(shape);
   const Claim claim = claim_of(result);
@@ -186,7 +180,7 @@ TEST(ExtremeShapes, what_is_inside_can_be_proven) {
       for (int i = 0; i < 20; ++i) {
         SCOPED_TRACE(half_extents.transpose());
         const TurnedBox box = turned_box(half_extents, random);
-        expect_inside(Hull<double>{PointCloud<double>(box.corners)}, box.within, random);
+        expect_inside(Hull{PointCloud(box.corners)}, box.within, random);
       }
 }
 
@@ -197,90 +191,42 @@ TEST(ExtremeShapes, in_a_thin_skin_one_is_inside) {
       const TurnedBox box = turned_box({1, 0.8, 0.6}, random);
       const Vec3<double> middle = (box.corners[0] + box.corners[3]) / 2;  // of a face
       const Vec3<double> out = middle.normalized() * radius * random.uniform(0.1, 0.9);
-      const Shape<double> hull = Hull<double>{PointCloud<double>(box.corners)};
-      expect_inside(Rounded<double>{radius, hull}, middle + out, random);
+      const Shape hull = Hull{PointCloud(box.corners)};
+      expect_inside(Rounded{radius, hull}, middle + out, random);
     }
-}
-
-/// Facets of such hulls are dominated by rounding for a line in float: rays were stopped by a
-/// fiftieth of the needle's length before they met it.
-TEST(ExtremeShapes, needles_thinner_than_rounding_are_met_where_they_are_in_float) {
-  Random random(3);
-  int hits = 0;
-  for (int i = 0; i < 4000; ++i) {
-    const double thickness = std::pow(10.0, random.uniform(-14, -9));
-    const Vec3<double> extents(1, thickness, thickness);
-    std::vector<Vec3<double>> points;
-    double first = 1, last = -1;
-    for (int k = 0; k < 8; ++k) {
-      points.push_back(random.in_cube().cwiseProduct(extents));
-      first = std::min(first, points.back().x());
-      last = std::max(last, points.back().x());
-    }
-    const Shape<double> hull = Hull<double>{PointCloud<double>(points)};
-    const PreparedShape<float> needle{convert<float>(hull)};
-    const Vec3<double> at(random.uniform(first, last), 0, 0);
-    const Vec3<double> origin = at + 3 * random.direction() + Vec3<double>(0, 0, 3.5);
-    const Ray<double> ray{origin, at - origin};
-    const CastResult<float> answer = cast_ray(needle, rounded_to<float>(ray));
-    if (answer.status != Status::hit) continue;
-    ++hits;
-    const double beside = (ray.origin + double(answer.t()) * ray.direction).tail<2>().norm();
-    EXPECT_LE(beside, 1e-5) << i;
-  }
-  EXPECT_GT(hits, 3500);
-}
-
-/// A ray in a sliver's plane that touches its corner left it by 3e-4 of its length.
-TEST(ExtremeShapes, slivers_in_float_are_touched_where_they_are) {
-  const Shape<float> sliver = Triangle<float>{
-      {Vec3<float>(-1, -7.3272705078125f, -0.65130615234375f), Vec3<float>(-8.766845703125f, 2, 0),
-       Vec3<float>(12437, -0.017554283142089844f, 0.0647897720336914f)}};
-  const PreparedShape<float> prepared(sliver);
-  const Ray<float> ray{{-4472.3876953125f, -19.181909561157227f, -0.6308512687683105f},
-                       {4471.3876953125f, 11.854639053344727f, -0.020454883575439453f}};
-  for (const SolverKind solver : {SolverKind::automatic, SolverKind::jet}) {
-    EXPECT_NEAR(cast_ray(prepared, ray, {.solver = solver}).t(), 1, 1e-6);
-    EXPECT_NEAR(cast_exit(prepared, ray, {.solver = solver}).t(), 1, 1e-6);
-  }
-  EXPECT_FALSE(prepared.definition().has_packets());
 }
 
 /// The plane of a miss separates: the whole of the ray lies before it.
-template <class T>
-void expect_plane(const Shape<T>& shape, const Ray<T>& ray, const CastResult<T>& miss) {
-  const Shape<Long> same = convert<Long>(shape);
-  const Vec3<Long> n = miss.normal.template cast<Long>(), o = ray.origin.template cast<Long>();
+void expect_plane(const Shape& shape, const Ray<double>& ray, const CastResult<double>& miss) {
+  const Shape same = shape;
+  const Vec3<Long> n = miss.normal.cast<Long>(), o = ray.origin.cast<Long>();
   EXPECT_NEAR(double(n.norm()), 1, 1e-6);
   EXPECT_GT(double(n.dot(o - same.support(n))), 0);
   if (std::isfinite(ray.t_max)) return;
-  EXPECT_GE(double(n.dot(ray.direction.template cast<Long>())), -1e-6);
+  EXPECT_GE(double(n.dot(ray.direction.cast<Long>())), -1e-6);
 }
 
 /// Through the middle of an axis by numbers that are exact, and up to just before it.
-template <class T>
 void expect_needles_of_least_radius_are_met() {
-  for (const T radius : {T(1), T(2), T(3), T(100)})
+  for (const double radius : {1.0, 2.0, 3.0, 100.0})
     for (const bool is_round : {true, false}) {
       SCOPED_TRACE(double(radius));
-      const T thin = radius * std::numeric_limits<T>::denorm_min(), half = T(0.1875);
-      const Shape<T> needle =
-          is_round ? Shape<T>(Capsule<T>{thin, half}) : Shape<T>(Cylinder<T>{thin, half});
-      const PreparedShape<T> prepared(needle);
-      Ray<T> ray{{T(1), T(-0.625), T(2.09375)}, {T(-0.5), T(0.3125), T(-1)}};
-      const CastResult<T> hit = cast_ray(prepared, ray);
+      const double thin = radius * std::numeric_limits<double>::denorm_min(), half = 0.1875;
+      const Shape needle = is_round ? Shape(Capsule{thin, half}) : Shape(Cylinder{thin, half});
+      const PreparedShape prepared(needle);
+      Ray<double> ray{{1.0, double(-0.625), 2.09375}, {double(-0.5), 0.3125, -1.0}};
+      const CastResult<double> hit = cast_ray(prepared, ray);
       EXPECT_EQ(hit.status, Status::hit);
       EXPECT_NEAR(double(hit.t()), 2, 1e-5);
-      ray.t_max = T(1.5);
-      const CastResult<T> miss = cast_ray(prepared, ray);
+      ray.t_max = 1.5;
+      const CastResult<double> miss = cast_ray(prepared, ray);
       ASSERT_EQ(miss.status, Status::miss);
       expect_plane(needle, ray, miss);
     }
 }
 
 TEST(ExtremeShapes, needles_of_the_least_radius_are_met) {
-  expect_needles_of_least_radius_are_met<float>();
-  expect_needles_of_least_radius_are_met<double>();
+  expect_needles_of_least_radius_are_met();
 }
 
 /// A length of 1e160 has no square in double: closed forms answered such a miss without a normal.
@@ -294,30 +240,29 @@ TEST(ExtremeShapes, misses_by_any_number_of_radii_have_planes) {
         const Vec3<double> middle = Vec3<double>(1, 2, 3) * radius;
         const Mat3<double> turn =
             Eigen::AngleAxis<double>(turned, Vec3<double>::UnitZ()).toRotationMatrix();
-        const Shape<double> ball = Sphere<double>{radius};
-        const PreparedShape<double> posed(ball, {turn, middle});
+        const Shape ball = Sphere{radius};
+        const PreparedShape posed(ball, {turn, middle});
         const Ray<double> ray{middle + Vec3<double>(off, 0, 0), {0, 0, 1}};
         const CastResult<double> miss = cast_ray(posed, ray);
         // Further away than 1e180 radii what the ray's place is known to may have no square.
         if (apart >= 600 && miss.status == Status::exhausted) continue;
         ASSERT_EQ(miss.status, Status::miss);
-        expect_plane<double>(Transform<double>{ball, Affine<double>{turn, middle}}, ray, miss);
+        expect_plane(Transform{ball, Affine<double>{turn, middle}}, ray, miss);
       }
 }
 
 /// A point has no size that lengths could be measured by: those without a square were none.
-template <class T>
 void expect_points_are_missed_from(int smallest) {
   for (int k = 0; k >= smallest; k -= 7)
-    for (const T behind : {T(0), T(2), T(-2)}) {
+    for (const double behind : {0.0, 2.0, -2.0}) {
       SCOPED_TRACE(::testing::Message() << k << ", " << double(behind));
-      const T unit = std::ldexp(T(1), k);
-      const Vec3<T> at = Vec3<T>(T(5), T(-1), T(3)) * unit;
-      const Shape<T> point = Point<T>{at};
-      const PreparedShape<T> prepared(point);
-      const Ray<T> past{at + Vec3<T>(T(1), T(2), behind) * unit, {T(0), T(0), T(1)}};
-      const Ray<T> through{at + Vec3<T>(T(0), T(0), T(-2)) * unit, {T(0), T(0), T(1)}};
-      const CastResult<T> miss = cast_ray(prepared, past);
+      const double unit = std::ldexp(1.0, k);
+      const Vec3<double> at = Vec3<double>(5.0, -1.0, 3.0) * unit;
+      const Shape point = Point{at};
+      const PreparedShape prepared(point);
+      const Ray<double> past{at + Vec3<double>(1.0, 2.0, behind) * unit, {0.0, 0.0, 1.0}};
+      const Ray<double> through{at + Vec3<double>(0.0, 0.0, -2.0) * unit, {0.0, 0.0, 1.0}};
+      const CastResult<double> miss = cast_ray(prepared, past);
       EXPECT_EQ(miss.status, Status::miss);
       EXPECT_EQ(cast_exit(prepared, past).status, Status::miss);
       expect_plane(point, past, miss);
@@ -327,25 +272,24 @@ void expect_points_are_missed_from(int smallest) {
 }
 
 TEST(ExtremeShapes, points_are_missed_by_however_little) {
-  expect_points_are_missed_from<float>(-140);
-  expect_points_are_missed_from<double>(-1060);
+  expect_points_are_missed_from(-1060);
 }
 
 TEST(ExtremeShapes, packets_say_what_single_casts_say) {
-  const Shape<double> shape = Ellipsoid<double>{{1, 1e-5, 1e-9}};
-  const PreparedShape<float> prepared{convert<float>(shape)};
+  const Shape shape = Ellipsoid{{1, 1e-5, 1e-9}};
+  const PreparedShape prepared{shape};
   FamilyRays rays(shape, RayFamily::random, 5);
   for (int i = 0; i < 50; ++i) {
-    RayPacket<float> packet{};
-    for (int lane = 0; lane < packet_lanes<float>; ++lane) {
+    RayPacket packet{};
+    for (int lane = 0; lane < packet_lanes; ++lane) {
       const Ray<double> ray = rays.next();
-      packet.set(lane, {ray.origin.cast<float>(), ray.direction.cast<float>()});
+      packet.set(lane, ray);
     }
-    CastPacket<float> answers{};
-    cast_packet(prepared, packet, all_lanes<float>, answers, best_instruction_set());
-    for (int lane = 0; lane < packet_lanes<float>; ++lane) {
-      const CastResult<float> one = cast_ray(prepared, packet.ray(lane));
-      const CastResult<float> other = answers.result(lane);
+    CastPacket answers{};
+    cast_packet(prepared, packet, all_lanes, answers, best_instruction_set());
+    for (int lane = 0; lane < packet_lanes; ++lane) {
+      const CastResult<double> one = cast_ray(prepared, packet.ray(lane));
+      const CastResult<double> other = answers.result(lane);
       EXPECT_EQ(one.status, other.status);
       if (one.status == Status::hit) {
         EXPECT_EQ(one.t(), other.t());

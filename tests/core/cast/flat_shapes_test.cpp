@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "core/cast/packet_cast.h"
-#include "core/derived/convert.h"
 #include "core/shape_cast/shape_cast.h"
 #include "tests/support/random.h"
 
@@ -100,10 +99,10 @@ P in_plane(int axis, const Vec3<double>& p) {
   return {Long(p[(axis + 1) % 3]), Long(p[(axis + 2) % 3])};
 }
 
-Shape<double> figure(const std::vector<Vec3<double>>& points, int kind) {
-  if (points.size() == 2) return Segment<double>{{points[0], points[1]}};
-  if (points.size() == 3 && kind == 0) return Triangle<double>{{points[0], points[1], points[2]}};
-  return Hull<double>{PointCloud<double>(points)};
+Shape figure(const std::vector<Vec3<double>>& points, int kind) {
+  if (points.size() == 2) return Segment{{points[0], points[1]}};
+  if (points.size() == 3 && kind == 0) return Triangle{{points[0], points[1], points[2]}};
+  return Hull{PointCloud(points)};
 }
 
 std::vector<Vec3<double>> some_points(Random& random, int axis, int count) {
@@ -113,13 +112,7 @@ std::vector<Vec3<double>> some_points(Random& random, int axis, int count) {
   return points;
 }
 
-template <class T>
-class FlatShapes : public ::testing::Test {};
-using Precisions = ::testing::Types<float, double>;
-TYPED_TEST_SUITE(FlatShapes, Precisions);
-
-TYPED_TEST(FlatShapes, are_met_in_their_planes) {
-  using T = TypeParam;
+TEST(FlatShapes, are_met_in_their_planes) {
   Random random(11);
   int hits = 0, insides = 0, misses = 0;
   for (int i = 0; i < 5000; ++i) {
@@ -136,23 +129,23 @@ TYPED_TEST(FlatShapes, are_met_in_their_planes) {
     Long t = 0;
     const auto exact = status_of(flat, in_plane(axis, origin), in_plane(axis, direction), 1e-4L, t);
     if (!exact) continue;
-    const PreparedShape<T> shape(convert<T>(figure(points, random.below(2))));
-    const Ray<T> ray{origin.cast<T>(), direction.cast<T>()};
-    const CastResult<T> answer = cast_ray(shape, ray);
+    const PreparedShape shape(figure(points, random.below(2)));
+    const Ray<double> ray{origin.cast<double>(), direction.cast<double>()};
+    const CastResult<double> answer = cast_ray(shape, ray);
     ASSERT_EQ(name_of(answer.status), name_of(*exact)) << i;
-    RayPacket<T> packet;
-    for (int lane = 0; lane < packet_lanes<T>; ++lane) packet.set(lane, ray);
-    CastPacket<T> together;
+    RayPacket packet;
+    for (int lane = 0; lane < packet_lanes; ++lane) packet.set(lane, ray);
+    CastPacket together;
     cast_packet(shape, packet, LaneBits(1), together);
-    const CastResult<T> lane = together.result(0);
+    const CastResult<double> lane = together.result(0);
     ASSERT_EQ(name_of(lane.status), name_of(*exact)) << i;
     ASSERT_EQ(lane.normal, answer.normal) << i;
     ++(*exact == Status::hit ? hits : *exact == Status::inside ? insides : misses);
     if (*exact != Status::hit) continue;
-    const double tolerance = 300 * double(std::numeric_limits<T>::epsilon());
+    const double tolerance = 300 * double(std::numeric_limits<double>::epsilon());
     const double slope = std::abs(double(answer.normal.dot(ray.direction)));
     ASSERT_LE(std::abs(double(answer.t()) - double(t)) * std::max(slope, 1e-3), tolerance) << i;
-    const Vec3<T> n = answer.normal;
+    const Vec3<double> n = answer.normal;
     ASSERT_NEAR(double(n.norm()), 1, 1e-5);
   }
   EXPECT_GT(hits, 500);
@@ -160,8 +153,7 @@ TYPED_TEST(FlatShapes, are_met_in_their_planes) {
   EXPECT_GT(misses, 500);
 }
 
-TYPED_TEST(FlatShapes, meet_others_in_the_same_plane) {
-  using T = TypeParam;
+TEST(FlatShapes, meet_others_in_the_same_plane) {
   Random random(12);
   int hits = 0, insides = 0, misses = 0;
   for (int i = 0; i < 1500; ++i) {
@@ -183,11 +175,11 @@ TYPED_TEST(FlatShapes, meet_others_in_the_same_plane) {
     Long t = 0;
     const auto exact = status_of(differences, P::Zero(), in_plane(axis, direction), 1e-4L, t);
     if (!exact) continue;
-    const PreparedPair<T> pair(
-        centred(convert<T>(figure(a, 0))),
-        centred(convert<T>(figure(b, 0)), Affine<T>{Mat3<T>::Identity(), shift.cast<T>()}));
-    const ShapeCastResult<T> answer =
-        cast_shape<T>(pair, direction.cast<T>(), std::numeric_limits<T>::infinity());
+    const PreparedPair pair(
+        centred(figure(a, 0)),
+        centred(figure(b, 0), Affine<double>{Mat3<double>::Identity(), shift.cast<double>()}));
+    const ShapeCastResult answer =
+        cast_shape(pair, direction.cast<double>(), std::numeric_limits<double>::infinity());
     ASSERT_EQ(name_of(answer.cast.status), name_of(*exact)) << i;
     ++(*exact == Status::hit ? hits : *exact == Status::inside ? insides : misses);
   }
@@ -196,14 +188,13 @@ TYPED_TEST(FlatShapes, meet_others_in_the_same_plane) {
   EXPECT_GT(misses, 200);
 }
 
-TYPED_TEST(FlatShapes, that_are_thinner_than_rounding_as_well) {
-  using T = TypeParam;
-  const T thin = T(4) * std::numeric_limits<T>::epsilon();
-  const PreparedShape<T> wedge(
-      Shape<T>(Hull<T>{PointCloud<T>({{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, T(0.25), thin}})}));
-  const CastResult<T> answer = cast_ray(wedge, Ray<T>{{T(0.125), -4, 0}, {0, 1, 0}});
+TEST(FlatShapes, that_are_thinner_than_rounding_as_well) {
+  const double thin = 4.0 * std::numeric_limits<double>::epsilon();
+  const PreparedShape wedge(
+      Shape(Hull{PointCloud({{-1, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0.25, thin}})}));
+  const CastResult<double> answer = cast_ray(wedge, Ray<double>{{0.125, -4, 0}, {0, 1, 0}});
   EXPECT_EQ(name_of(answer.status), name_of(Status::hit));
-  EXPECT_EQ(answer.t(), T(4));
+  EXPECT_EQ(answer.t(), 4.0);
 }
 
 }  // namespace

@@ -3,20 +3,18 @@
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
-#include "core/derived/convert.h"
 #include "tests/support/random.h"
 
 namespace minkray::testing {
 namespace {
 
-using S = Shape<double>;
+using S = Shape;
 
 constexpr double radius = 0.7, rounding = 0.2;
 const Vec3<double> reach(0.9, 0.4, 0);  ///< half of the segment that the disk is swept along
 
 S turned(S shape, const Mat3<double>& rotation) {
-  return Transform<double>{std::move(shape),
-                           AffineMap<double>(Affine<double>{rotation, {0, 0, 0}})};
+  return Transform{std::move(shape), AffineMap(Affine<double>{rotation, {0, 0, 0}})};
 }
 
 /// Distance of (x, y) from the segment from -`half` to `half`.
@@ -28,12 +26,11 @@ double beside(const Vec3<double>& x, const Vec3<double>& half) {
 }
 
 /// `shape` has a flat side at the height z that reaches `radius` around the segment.
-template <class T>
 void check_top(const S& shape, const Vec3<double>& half, double z, double eps) {
   Random random(11);
   for (const bool is_turned : {false, true}) {
     const Mat3<double> rotation = is_turned ? random.rotation() : Mat3<double>::Identity();
-    const PreparedShape<T> prepared(convert<T>(turned(shape, rotation)));
+    const PreparedShape prepared(turned(shape, rotation));
     int on_top = 0;
     for (int i = 0; i < 2000; ++i) {
       Vec3<double> at = random.in_cube() * 2;
@@ -49,54 +46,51 @@ void check_top(const S& shape, const Vec3<double>& half, double z, double eps) {
       ++on_top;
       Vec3<double> d(random.uniform(-1, 1), random.uniform(-1, 1), -1);
       const Vec3<double> o = at - d * 3;
-      const CastResult<T> result =
-          cast_ray(prepared, Ray<T>{(rotation * o).cast<T>(), (rotation * d).cast<T>()});
+      const CastResult<double> result =
+          cast_ray(prepared, Ray<double>{(rotation * o), (rotation * d)});
       ASSERT_EQ(result.status, Status::hit) << at.transpose();
       ASSERT_NEAR(double(result.t()), 3, eps) << at.transpose();
-      ASSERT_NEAR(double(result.normal.dot((rotation * Vec3<double>(0, 0, 1)).cast<T>())), 1,
-                  4 * eps);
+      ASSERT_NEAR(double(result.normal.dot((rotation * Vec3<double>(0, 0, 1)))), 1, 4 * eps);
     }
     EXPECT_GT(on_top, 500);
   }
 }
 
 void check(const S& shape, const Vec3<double>& half, double z) {
-  check_top<double>(shape, half, z, 1e-14);
-  check_top<float>(shape, half, z, 4e-6);
+  check_top(shape, half, z, 1e-14);
 }
 
-const S disk = Disk<double>{radius};
-const S segment = Segment<double>{{Vec3<double>(-reach), reach}};
+const S disk = Disk{radius};
+const S segment = Segment{{Vec3<double>(-reach), reach}};
 
 TEST(FlatSides, of_disks) {
   check(disk, Vec3<double>::Zero(), 0);
 }
 
 TEST(FlatSides, of_rounded_disks) {
-  check(Rounded<double>{rounding, disk}, Vec3<double>::Zero(), rounding);
+  check(Rounded{rounding, disk}, Vec3<double>::Zero(), rounding);
 }
 
 TEST(FlatSides, of_rounded_cylinders) {
-  check(Rounded<double>{rounding, S(Cylinder<double>{radius, 1})}, Vec3<double>::Zero(),
-        1 + rounding);
+  check(Rounded{rounding, S(Cylinder{radius, 1})}, Vec3<double>::Zero(), 1 + rounding);
 }
 
 TEST(FlatSides, of_swept_disks) {
-  check(MinkowskiSum<double>{{disk, segment}}, reach, 0);
+  check(MinkowskiSum{{disk, segment}}, reach, 0);
 }
 
 TEST(FlatSides, of_swept_and_rounded_disks) {
-  check(Rounded<double>{rounding, S(MinkowskiSum<double>{{disk, segment}})}, reach, rounding);
+  check(Rounded{rounding, S(MinkowskiSum{{disk, segment}})}, reach, rounding);
 }
 
 TEST(FlatSides, of_disks_swept_by_ellipsoids) {
-  check(MinkowskiSum<double>{{disk, segment, S(Ellipsoid<double>{{0.3, 0.2, 0.5}})}}, reach, 0.5);
+  check(MinkowskiSum{{disk, segment, S(Ellipsoid{{0.3, 0.2, 0.5}})}}, reach, 0.5);
 }
 
 /// Two disks in one plane, but of different sizes: next to the smaller one nothing is hit early.
 TEST(FlatSides, of_disks_of_two_sizes) {
-  const S shape = Rounded<double>{0.05, S(Frustum<double>{{1, 0.3}, 0.4})};
-  const PreparedShape<double> prepared(shape);
+  const S shape = Rounded{0.05, S(Frustum{{1, 0.3}, 0.4})};
+  const PreparedShape prepared(shape);
   Random random(12);
   for (int i = 0; i < 4000; ++i) {
     const Vec3<double> at(random.uniform(-1.1, 1.1), random.uniform(-1.1, 1.1), 0);

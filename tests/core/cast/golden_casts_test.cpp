@@ -7,13 +7,11 @@
 
 #include "core/cast/cast.h"
 #include "core/cast/packet_cast.h"
-#include "core/derived/convert.h"
 #include "core/proof/certificate.h"
 #include "core/proof/check_certificate.h"
 #include "tests/support/hashed_bits.h"
 #include "tests/support/measured_shapes.h"
 #include "tests/support/ray_families.h"
-#include "tests/support/rounded.h"
 #include "tests/support/sample_shapes.h"
 #include "tests/support/values_asked_for.h"
 
@@ -23,11 +21,11 @@ namespace {
 struct Bits : HashedBits {
   using HashedBits::add;
 
-  template <class T>
-  void add(const CastResult<T>& answer) {
+  void add(const CastResult<double>& answer) {
     add(answers, answer.status);
     if (answer.found()) {
-      for (const T number : {answer.t_base, answer.t_offset, answer.offset_lo, answer.offset_hi})
+      for (const double number :
+           {answer.t_base, answer.t_offset, answer.offset_lo, answer.offset_hi})
         add(answers, number);
     }
     add(answers, answer.normal);
@@ -91,25 +89,24 @@ Ray<double> cut(Ray<double> ray, Random& random) {
   return ray;
 }
 
-template <class T>
-void cast_all(const Shape<double>& shape, const Affine<double>& pose, AllBits& bits) {
-  const Shape<double> placed = Transform<double>{shape, AffineMap<double>(pose)};
-  const Shape<T> rounded = convert<T>(placed);
-  const PreparedShape<T> prepared(rounded);
-  const Shape<double> same = convert<double>(rounded);
+void cast_all(const Shape& shape, const Affine<double>& pose, AllBits& bits) {
+  const Shape placed = Transform{shape, AffineMap(pose)};
+  const Shape rounded = placed;
+  const PreparedShape prepared(rounded);
+  const Shape same = rounded;
   const SupportFunction support = supports_of(same);
   for (const RayFamilyDescription& family : ray_families) {
     FamilyRays rays(same, family.family, 2004);
     Random random(17);
-    RayPacket<T> packet;
+    RayPacket packet;
     for (int i = 0; i < rays_each; ++i) {
-      const Ray<T> ray = rounded_to<T>(cut(rays.next(), random));
+      const Ray<double> ray = cut(rays.next(), random);
       for (const SolverDescription& solver : solver_descriptions) {
         const bool is_slow = solver.kind == SolverKind::first_solution;
         if (is_slow && i >= slow_rays_each) continue;
-        CastOptions<T> options;
+        CastOptions options;
         options.solver = solver.kind;
-        if (i % 8 == 5) options.v0 = Vec3<T>(T(1), T(2), T(-3));
+        if (i % 8 == 5) options.v0 = Vec3<double>(1.0, 2.0, -3.0);
         if (i % 8 == 6) options.max_iterations = 4;
         bits[std::string(solver.name)].add(cast_ray(prepared, ray, options));
         if (solver.kind == SolverKind::automatic || solver.kind == SolverKind::jet)
@@ -117,15 +114,15 @@ void cast_all(const Shape<double>& shape, const Affine<double>& pose, AllBits& b
       }
       if (i < proven_rays_each) {
         const Claim claim = claim_of(cast_ray(prepared, ray));
-        const Ray<double> proven = in_double(ray);
+        const Ray<double> proven = ray;
         const Certificate proof = certify(support, proven, claim);
         bits["proof"].add(proof, check_certificate(support, proven, claim, proof));
       }
-      packet.set(i % packet_lanes<T>, ray);
-      if (i % packet_lanes<T> < packet_lanes<T> - 1) continue;
-      CastPacket<T> answers;
-      cast_packet(prepared, packet, all_lanes<T>, answers);
-      for (int lane = 0; lane < packet_lanes<T>; ++lane) bits["packet"].add(answers.result(lane));
+      packet.set(i % packet_lanes, ray);
+      if (i % packet_lanes < packet_lanes - 1) continue;
+      CastPacket answers;
+      cast_packet(prepared, packet, all_lanes, answers);
+      for (int lane = 0; lane < packet_lanes; ++lane) bits["packet"].add(answers.result(lane));
     }
   }
 }
@@ -136,7 +133,7 @@ std::vector<SampleShape> golden_shapes() {
     if (measured.name.find("hull") != std::string::npos)
       shapes.push_back({measured.name, measured.shape});
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const Shape<double> shape = random_nesting(seed);
+    const Shape shape = random_nesting(seed);
     shapes.push_back({"nesting " + std::to_string(seed) + ", " + name_of_nesting(shape), shape});
   }
   return shapes;
@@ -145,11 +142,10 @@ std::vector<SampleShape> golden_shapes() {
 class GoldenCasts : public ::testing::TestWithParam<SampleShape> {};
 
 TEST_P(GoldenCasts, are_as_recorded) {
-  const Shape<double>& shape = GetParam().shape;
+  const Shape& shape = GetParam().shape;
   AllBits bits;
-  for (const Affine<double>& pose : golden_poses(ball_around(bounds_of<double>(shape)).radius)) {
-    cast_all<float>(shape, pose, bits);
-    cast_all<double>(shape, pose, bits);
+  for (const Affine<double>& pose : golden_poses(ball_around(bounds_of(shape)).radius)) {
+    cast_all(shape, pose, bits);
   }
   RecordedHashes recorded("casts.txt", "the casts of golden_casts_test.cpp answer");
   expect_as_recorded(recorded, GetParam().name, bits);

@@ -3,10 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
-#include "core/derived/convert.h"
 #include "tests/oracle/half_spaces.h"
 #include "tests/support/ray_families.h"
-#include "tests/support/rounded.h"
 
 namespace minkray::testing {
 namespace {
@@ -63,32 +61,28 @@ std::vector<Polytope> polytopes() {
   };
 }
 
-/// `detour`: the hull was kept in float before.
-template <class T>
+/// `detour`: the points are rounded to floats first.
 void compare(const Polytope& polytope, RayFamily family, int count, bool detour = false) {
   SCOPED_TRACE(polytope.name);
-  // Numbers that T holds exactly, so that both get the same query.
   std::vector<Vec3<double>> points;
   for (const auto& p : polytope.points)
-    points.push_back(detour ? Vec3<double>(p.cast<float>().cast<double>())
-                            : Vec3<double>(p.cast<T>().template cast<double>()));
-  Shape<double> shape = Hull<double>{PointCloud<double>(points)};
-  if (detour) shape = convert<double>(convert<float>(shape));
-  const PreparedShape<T> prepared(convert<T>(shape));
+    points.push_back(detour ? Vec3<double>(p.cast<float>().cast<double>()) : p);
+  const Shape shape = Hull{PointCloud(points)};
+  const PreparedShape prepared(shape);
   const HalfSpaces planes(points);
   const double radius = double(prepared.inner_ball().radius);
   double largest = radius;
   for (const auto& p : points) largest = std::max(largest, p.cwiseAbs().maxCoeff());
   // As certificates allow (core/proof/check_certificate.h): planes are known so well.
-  const Long allowed = Long(64 * std::numeric_limits<T>::epsilon()) * largest;
+  const Long allowed = Long(64 * std::numeric_limits<double>::epsilon()) * largest;
   FamilyRays rays(shape, family, 41);
   int hits = 0, misses = 0;
   for (int i = 0; i < count; ++i) {
-    const Ray<T> ray = rounded_to<T>(rays.next());
-    const Ray<double> same = in_double(ray);
+    const Ray<double> ray = rays.next();
+    const Ray<double> same = ray;
     const Vec3<Long> o = same.origin.cast<Long>(), d = same.direction.cast<Long>();
     const HalfSpaces::Part grown = planes.clip(o, d, allowed), shrunk = planes.clip(o, d, -allowed);
-    const CastResult<T> result = cast_ray(prepared, ray);
+    const CastResult<double> result = cast_ray(prepared, ray);
     const auto describe = [&] {
       std::ostringstream text;
       text.precision(17);
@@ -107,13 +101,13 @@ void compare(const Polytope& polytope, RayFamily family, int count, bool detour 
       ASSERT_EQ(result.status, Status::hit) << describe();
       // Within the planes moved by what is allowed; at edges, of the plane that was answered.
       const Long t = Long(result.t_base) + Long(result.t_offset);
-      const Long slope = std::abs(result.normal.template cast<Long>().dot(d));
+      const Long slope = std::abs(result.normal.cast<Long>().dot(d));
       const Long error = std::abs(t - planes.clip(o, d).lower) * slope;
       EXPECT_TRUE((t >= grown.lower && t <= shrunk.lower) || error <= allowed)
           << describe() << ", truly at " << double(planes.clip(o, d).lower);
       if (family == RayFamily::random) {
-        EXPECT_NEAR(double(result.normal.template cast<Long>().dot(shrunk.normal)), 1,
-                    1024 * double(std::numeric_limits<T>::epsilon()))
+        EXPECT_NEAR(double(result.normal.cast<Long>().dot(shrunk.normal)), 1,
+                    1024 * double(std::numeric_limits<double>::epsilon()))
             << describe();
       }
     } else if (shrunk.upper > 0) {
@@ -134,16 +128,12 @@ TEST(HalfSpaces, of_a_cube_are_six_planes_in_many_copies) {
 
 class BesideHalfSpaces : public ::testing::TestWithParam<RayFamily> {};
 
-TEST_P(BesideHalfSpaces, in_double) {
-  for (const Polytope& polytope : polytopes()) compare<double>(polytope, GetParam(), 1000);
+TEST_P(BesideHalfSpaces, at_all_hulls) {
+  for (const Polytope& polytope : polytopes()) compare(polytope, GetParam(), 1000);
 }
 
-TEST_P(BesideHalfSpaces, in_double_after_a_detour_through_float) {
-  for (const Polytope& polytope : polytopes()) compare<double>(polytope, GetParam(), 1000, true);
-}
-
-TEST_P(BesideHalfSpaces, in_float) {
-  for (const Polytope& polytope : polytopes()) compare<float>(polytope, GetParam(), 1000);
+TEST_P(BesideHalfSpaces, with_points_rounded_to_floats) {
+  for (const Polytope& polytope : polytopes()) compare(polytope, GetParam(), 1000, true);
 }
 
 INSTANTIATE_TEST_SUITE_P(Hulls, BesideHalfSpaces,

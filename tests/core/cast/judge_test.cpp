@@ -12,18 +12,18 @@ namespace {
 
 // The line passes the box by: no proof of a hit holds.
 TEST(Judge, an_unproven_answer_at_an_ordinary_shape_is_given_where_there_is_none_better) {
-  const PreparedShape<double> box(Shape<double>(Box<double>{{1, 1, 1}}));
+  const PreparedShape box(Shape(Box{{1, 1, 1}}));
   const RayNearBall<double> near = box.to_inner(Ray<double>{{-3, 1.001, 0}, {1, 0, 0}});
-  const CastOptions<double> options;
-  const CastObserver<double> observer;
-  const StageQuestion<double> question{box, near, options, observer};
+  const CastOptions options;
+  const CastObserver observer;
+  const StageQuestion question{box, near, options, observer};
   CastResult<double> touches;
   touches.status = Status::hit;
   touches.t_base = near.t_base;
   touches.t_offset = touches.offset_lo = touches.offset_hi = -1;
   touches.normal = {0, 1, 0};
   for (const Proof proof : {Proof::none, Proof::steep_hits, Proof::all}) {
-    Judge<double> judge(question, proof);
+    Judge judge(question, proof);
     EXPECT_EQ(judge.accepts(touches), proof == Proof::none);
     const CastResult<double> verdict = judge.verdict();
     EXPECT_EQ(verdict.status, proof == Proof::all ? Status::exhausted : Status::hit);
@@ -34,7 +34,7 @@ TEST(Judge, an_unproven_answer_at_an_ordinary_shape_is_given_where_there_is_none
 // The middle of a sliver is only known to sixteen times the rounding of its corners; what is
 // further off is no hit.
 TEST(Judge, hits_are_proven_that_are_off_by_less_than_sixteen_times_a_checkers_rounding) {
-  const PreparedShape<double> ball(Shape<double>(Sphere<double>{2}));
+  const PreparedShape ball(Shape(Sphere{2}));
   const Ray<double> ray{{-3, 0, 0}, {1, 0, 0}};
   const RayNearBall<double> near = ball.to_inner(ray);
   const double rounding = 2 * std::numeric_limits<double>::epsilon();  // of the radius
@@ -50,14 +50,13 @@ TEST(Judge, hits_are_proven_that_are_off_by_less_than_sixteen_times_a_checkers_r
 // The ray leaves the shape, or would enter it, along its surface: at shapes with corners an origin
 // inside is checked again.
 TEST(Judge, origins_just_inside_smooth_shapes_are_told_by_models) {
-  CastOptions<double> options;
+  CastOptions options;
   options.solver = SolverKind::jet;
-  const Shape<double> kinds[] = {
-      Superellipsoid<double>{{1, 0.8, 0.6}, 2.5},
-      MinkowskiSum<double>{{Shape<double>(Ellipsoid<double>{{1, 0.8, 0.2}}),
-                            Shape<double>(Ellipsoid<double>{{0.3, 0.5, 0.4}})}}};
-  for (const Shape<double>& kind : kinds) {
-    const PreparedShape<double> shape(kind);
+  const Shape kinds[] = {
+      Superellipsoid{{1, 0.8, 0.6}, 2.5},
+      MinkowskiSum{{Shape(Ellipsoid{{1, 0.8, 0.2}}), Shape(Ellipsoid{{0.3, 0.5, 0.4}})}}};
+  for (const Shape& kind : kinds) {
+    const PreparedShape shape(kind);
     for (const double depth : {1e-9, 1e-8, 1e-3, 0.2}) {
       const CastResult<double> answer =
           cast_ray(shape, Ray<double>{{0, 0, 0.6 - depth}, {1, 0, 0}}, options);

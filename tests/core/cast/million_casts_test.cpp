@@ -6,11 +6,9 @@
 #include <cctype>
 
 #include "core/cast/cast.h"
-#include "core/derived/convert.h"
 #include "tests/support/cast_judge.h"
 #include "tests/support/measured_shapes.h"
 #include "tests/support/ray_families.h"
-#include "tests/support/rounded.h"
 #include "tests/support/values_asked_for.h"
 
 namespace minkray::testing {
@@ -18,19 +16,18 @@ namespace {
 
 class MillionCasts : public ::testing::TestWithParam<MeasuredShape> {};
 
-template <class T>
 void expect_right(const MeasuredShape& measured, RayFamily family, int rays) {
-  const Shape<T> shape = convert<T>(measured.shape);
-  const Shape<double> same = convert<double>(shape);
-  const PreparedShape<T> prepared(shape);
-  const PreparedShape<double> prepared_same(same);
+  const Shape shape = measured.shape;
+  const Shape same = shape;
+  const PreparedShape prepared(shape);
+  const PreparedShape prepared_same(same);
   const CastJudge judge(same);
   FamilyRays source(same, family, 77);
   int hits = 0;
   for (int i = 0; i < rays; ++i) {
-    const Ray<T> ray = rounded_to<T>(source.next());
-    const Ray<double> same_ray = in_double(ray);
-    const CastResult<T> answer = cast_ray(prepared, ray);
+    const Ray<double> ray = source.next();
+    const Ray<double> same_ray = ray;
+    const CastResult<double> answer = cast_ray(prepared, ray);
     const Vec3<double> normal = cast_ray(prepared_same, same_ray).normal;
     const Judgement judged = judge(same_ray, answer, judge.truth(same_ray, normal));
     ASSERT_NE(judged.verdict, Verdict::exhausted) << i;
@@ -38,17 +35,15 @@ void expect_right(const MeasuredShape& measured, RayFamily family, int rays) {
     ASSERT_NE(judged.verdict, Verdict::wrong) << name_of(answer.status) << " at ray " << i;
     if (judged.verdict != Verdict::right || answer.status != Status::hit) continue;
     ++hits;
-    ASSERT_LE(judged.error, allowed_error<T>) << i;
+    ASSERT_LE(judged.error, allowed_error) << i;
   }
   EXPECT_GT(hits, rays / 50);
   EXPECT_LT(hits, rays);
 }
 
 TEST_P(MillionCasts, are_right) {
-  expect_right<float>(GetParam(), RayFamily::random, 30000);
-  expect_right<double>(GetParam(), RayFamily::random, 30000);
-  expect_right<float>(GetParam(), RayFamily::grazing, 4000);
-  expect_right<double>(GetParam(), RayFamily::grazing, 4000);
+  expect_right(GetParam(), RayFamily::random, 30000);
+  expect_right(GetParam(), RayFamily::grazing, 4000);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, MillionCasts, values_asked_for<MillionCasts>(measured_shapes),
@@ -60,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, MillionCasts, values_asked_for<MillionCasts>(me
                          });
 
 TEST(CastJudge, notices_what_is_wrong) {
-  const Shape<double> box = Box<double>{{1, 1, 1}};
+  const Shape box = Box{{1, 1, 1}};
   const CastJudge judge(box);
   const double R = std::sqrt(3.0);
   const Ray<double> ray{{-5, 0.5, 0.25}, {2, 0, 0}};
@@ -69,9 +64,9 @@ TEST(CastJudge, notices_what_is_wrong) {
   EXPECT_DOUBLE_EQ(truth.cosine, 1);
   EXPECT_DOUBLE_EQ(judge.truth(ray, {-0.1, 0, 1}).cosine, 1) << "of no normal there";
 
-  CastResult<double> answer = cast_ray(PreparedShape<double>(box), ray);
+  CastResult<double> answer = cast_ray(PreparedShape(box), ray);
   EXPECT_EQ(judge(ray, answer, truth).verdict, Verdict::right);
-  EXPECT_LE(judge(ray, answer, truth).error, allowed_error<double>);
+  EXPECT_LE(judge(ray, answer, truth).error, allowed_error);
   answer.t_offset += 1e-6;
   EXPECT_NEAR(judge(ray, answer, truth).error, 2e-6 / R, 1e-12);
   // A normal nearly across the ray makes it no better.

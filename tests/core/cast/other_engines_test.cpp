@@ -5,7 +5,6 @@
 
 #include "core/cast/cast.h"
 #include "tests/support/ray_families.h"
-#include "tests/support/rounded.h"
 #ifdef MINKRAY_MUJOCO
 #include "tests/oracle/mujoco_ray.h"
 #endif
@@ -16,11 +15,11 @@
 namespace minkray::testing {
 namespace {
 
-using S = Shape<double>;
+using S = Shape;
 
 std::vector<S> primitives() {
-  return {Sphere<double>{1.3}, Capsule<double>{0.5, 1}, Ellipsoid<double>{{1, 0.5, 0.25}},
-          Cylinder<double>{0.7, 1}, Box<double>{{1, 0.5, 0.25}}};
+  return {Sphere{1.3}, Capsule{0.5, 1}, Ellipsoid{{1, 0.5, 0.25}}, Cylinder{0.7, 1},
+          Box{{1, 0.5, 0.25}}};
 }
 
 /// `entry` is the engine's. Both miss or both hit, and then at spots that are equally far along the
@@ -28,7 +27,7 @@ std::vector<S> primitives() {
 template <class Entry>
 int agreeing(const S& shape, const Entry& entry) {
   constexpr double t_max = 20, allowed = 1e-12;  // of the radius, along the normal
-  const PreparedShape<double> prepared(shape);
+  const PreparedShape prepared(shape);
   FamilyRays rays(shape, RayFamily::random, 61);
   int hits = 0;
   for (int i = 0; i < 2000; ++i) {

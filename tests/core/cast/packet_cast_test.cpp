@@ -6,7 +6,6 @@
 
 #include <bit>
 
-#include "core/derived/convert.h"
 #include "tests/support/aimed_rays.h"
 #include "tests/support/sample_shapes.h"
 
@@ -22,28 +21,26 @@ std::vector<InstructionSet> instruction_sets() {
 std::vector<SampleShape> packed_shapes() {
   std::vector<SampleShape> all = sample_shapes();
   for (std::uint64_t seed = 500; seed < 540; ++seed) {
-    const Shape<double> shape = random_nesting(seed);
+    const Shape shape = random_nesting(seed);
     all.push_back({"seed " + std::to_string(seed) + " " + name_of_nesting(shape), shape});
   }
-  // Needles whose thickness is rounding in float: packets left their casts' box and model to them.
+  // Needles: packets left their casts' box and model to them.
   using V = Vec3<double>;
-  all.push_back({"triangle of 1e27",
-                 Triangle<double>{{V(-1, 3, 0), V(3, -1.25, 0.75), V(5.9e27, 0.04, -0.0625)}}});
+  all.push_back(
+      {"triangle of 1e27", Triangle{{V(-1, 3, 0), V(3, -1.25, 0.75), V(5.9e27, 0.04, -0.0625)}}});
   Random random(6);
   std::vector<V> points;
   for (int k = 0; k < 8; ++k) points.push_back(random.in_cube().cwiseProduct(V(1, 1e-11, 1e-11)));
-  all.push_back({"needle of 1e-11", Hull<double>{PointCloud<double>(points)}});
+  all.push_back({"needle of 1e-11", Hull{PointCloud(points)}});
   return all;
 }
 
-template <class T>
-bool same_bits(T a, T b) {
-  using Bits = std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>;
+bool same_bits(double a, double b) {
+  using Bits = std::conditional_t<sizeof(double) == 4, std::uint32_t, std::uint64_t>;
   return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
 }
 
-template <class T>
-::testing::AssertionResult same(const CastResult<T>& a, const CastResult<T>& b) {
+::testing::AssertionResult same(const CastResult<double>& a, const CastResult<double>& b) {
   if (a.status != b.status)
     return ::testing::AssertionFailure() << name_of(a.status) << " and " << name_of(b.status);
   if (a.found() && !same_bits(a.t_base, b.t_base)) return ::testing::AssertionFailure() << "t_base";
@@ -61,39 +58,37 @@ template <class T>
 }
 
 /// Packets of rays of all kinds: near and far, that begin inside, end early, are points.
-template <class T>
-std::vector<RayPacket<T>> packets_at(const Shape<T>& shape, int count) {
-  const Bounds<double> bounds = bounds_of<double>(convert<double>(shape));
+std::vector<RayPacket> packets_at(const Shape& shape, int count) {
+  const Bounds<double> bounds = bounds_of(shape);
   AimedRays near(bounds, 91, 3), far(bounds, 92, 1e4), inside(bounds, 93, 0.6);
   Random random(94);
-  std::vector<RayPacket<T>> packets(static_cast<std::size_t>(count));
-  for (RayPacket<T>& packet : packets) {
-    for (int lane = 0; lane < packet_lanes<T>; ++lane) {
+  std::vector<RayPacket> packets(static_cast<std::size_t>(count));
+  for (RayPacket& packet : packets) {
+    for (int lane = 0; lane < packet_lanes; ++lane) {
       const double kind = random.uniform(0, 1);
       Ray<double> ray = kind < 0.6 ? near.next(1.4) : kind < 0.8 ? far.next(1.4) : inside.next(0.7);
-      Ray<T> cast_at{ray.origin.cast<T>(), ray.direction.cast<T>()};
+      Ray<double> cast_at{ray.origin.cast<double>(), ray.direction.cast<double>()};
       if (kind > 0.97) cast_at.direction.setZero();
-      if (kind > 0.5 && kind < 0.55) cast_at.t_max = T(random.uniform(0, 2));
+      if (kind > 0.5 && kind < 0.55) cast_at.t_max = double(random.uniform(0, 2));
       packet.set(lane, cast_at);
     }
   }
   return packets;
 }
 
-template <class T>
 void check_all() {
   int hits = 0, rays = 0;
   for (const SampleShape& sample : packed_shapes()) {
-    const Shape<T> shape = convert<T>(sample.shape);
-    const PreparedShape<T> prepared(shape);
-    for (const RayPacket<T>& packet : packets_at(shape, 1000 / packet_lanes<T>)) {
+    const Shape shape = sample.shape;
+    const PreparedShape prepared(shape);
+    for (const RayPacket& packet : packets_at(shape, 1000 / packet_lanes)) {
       for (const InstructionSet set : instruction_sets()) {
-        CastPacket<T> answers;
-        cast_packet(prepared, packet, all_lanes<T>, answers, set);
-        for (int lane = 0; lane < packet_lanes<T>; ++lane) {
-          const CastResult<T> alone = cast_ray(prepared, packet.ray(lane));
+        CastPacket answers;
+        cast_packet(prepared, packet, all_lanes, answers, set);
+        for (int lane = 0; lane < packet_lanes; ++lane) {
+          const CastResult<double> alone = cast_ray(prepared, packet.ray(lane));
           ASSERT_TRUE(same(alone, answers.result(lane)))
-              << sample.name << ", " << packet_lanes<T> << " lanes, set " << int(set) << ", origin "
+              << sample.name << ", " << packet_lanes << " lanes, set " << int(set) << ", origin "
               << packet.ray(lane).origin.transpose() << ", direction "
               << packet.ray(lane).direction.transpose();
           ++rays;
@@ -106,24 +101,20 @@ void check_all() {
   EXPECT_LT(hits, 0.7 * rays);
 }
 
-TEST(PacketCast, answers_as_single_casts_do_in_float) {
-  check_all<float>();
-}
-
-TEST(PacketCast, answers_as_single_casts_do_in_double) {
-  check_all<double>();
+TEST(PacketCast, answers_as_single_casts_do) {
+  check_all();
 }
 
 TEST(PacketCast, lanes_that_are_not_asked_for_change_nothing) {
-  const PreparedShape<float> box(convert<float>(sample_shapes().front().shape));
-  for (const RayPacket<float>& packet : packets_at(box.inner_shape(), 50)) {
-    CastPacket<float> whole, half;
-    cast_packet(box, packet, all_lanes<float>, whole);
-    cast_packet(box, packet, LaneBits(0b01010101), half);
-    EXPECT_EQ(half.hit, whole.hit & 0b01010101u);
-    EXPECT_EQ(half.inside, whole.inside & 0b01010101u);
-    EXPECT_EQ(half.miss, whole.miss & 0b01010101u);
-    for (int lane = 0; lane < packet_lanes<float>; lane += 2)
+  const PreparedShape box(sample_shapes().front().shape);
+  for (const RayPacket& packet : packets_at(box.inner_shape(), 50)) {
+    CastPacket whole, half;
+    cast_packet(box, packet, all_lanes, whole);
+    cast_packet(box, packet, LaneBits(0b0101), half);
+    EXPECT_EQ(half.hit, whole.hit & 0b0101u);
+    EXPECT_EQ(half.inside, whole.inside & 0b0101u);
+    EXPECT_EQ(half.miss, whole.miss & 0b0101u);
+    for (int lane = 0; lane < packet_lanes; lane += 2)
       EXPECT_TRUE(same(whole.result(lane), half.result(lane)));
   }
 }

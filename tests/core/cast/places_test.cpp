@@ -12,7 +12,6 @@
 #include <string>
 
 #include "core/cast/cast.h"
-#include "core/derived/convert.h"
 #include "core/gjk/gjk_ray_cast.h"
 #include "core/proof/check_certificate.h"
 #include "core/world/world.h"
@@ -23,7 +22,7 @@
 namespace minkray::testing {
 namespace {
 
-using S = Shape<double>;
+using S = Shape;
 using V = Vec3<double>;
 using Long = long double;
 
@@ -47,36 +46,36 @@ class Maker {
     const auto r = [&] { return random_.uniform(0.2, 1); };
     switch (random_.below(10)) {
       case 0:
-        return Sphere<double>{r()};
+        return Sphere{r()};
       case 1:
-        return Box<double>{{r(), r(), r()}};
+        return Box{{r(), r(), r()}};
       case 2:
-        return Capsule<double>{r(), r()};
+        return Capsule{r(), r()};
       case 3:
-        return Cylinder<double>{r(), r()};
+        return Cylinder{r(), r()};
       case 4:
-        return Cone<double>{r(), r()};
+        return Cone{r(), r()};
       case 5:
-        return Ellipsoid<double>{{r(), r(), r()}};
+        return Ellipsoid{{r(), r(), r()}};
       case 6:
-        return Disk<double>{r()};
+        return Disk{r()};
       case 7:
-        return TaperedCapsule<double>{{r(), r()}, r()};
+        return TaperedCapsule{{r(), r()}, r()};
       case 8:
-        return Superellipsoid<double>{{r(), r(), r()}, random_.uniform(2, 6)};
+        return Superellipsoid{{r(), r(), r()}, random_.uniform(2, 6)};
       default:
         return points(V::Zero());
     }
   }
   S points(const V& at) {
     if (random_.below(2)) {
-      Triangle<double> triangle;
+      Triangle triangle;
       for (V& p : triangle.points) p = at + in_grains(random_.in_cube());
       return triangle;
     }
     std::vector<V> cloud;
     for (int i = 0; i < 12; ++i) cloud.push_back(at + in_grains(random_.in_cube()));
-    return Hull<double>{PointCloud<double>(std::move(cloud))};
+    return Hull{PointCloud(std::move(cloud))};
   }
   Mat3<double> linear() {
     switch (random_.below(3)) {
@@ -93,7 +92,7 @@ class Maker {
   /// Some place near `times` the maker's.
   V somewhere(double times) { return in_grains(random_.in_cube()) + times * place_; }
   S mapped(S shape, const V& to) {
-    return Transform<double>{std::move(shape), {Affine<double>{linear(), to}}};
+    return Transform{std::move(shape), {Affine<double>{linear(), to}}};
   }
   S at(double times) { return mapped(leaf(), somewhere(times)); }
 
@@ -104,30 +103,28 @@ class Maker {
       case 1:
         return points(place_);
       case 2:
-        return MinkowskiSum<double>{{at(1), at(0)}};
+        return MinkowskiSum{{at(1), at(0)}};
       case 3:
-        return MinkowskiSum<double>{{at(3), at(-2), at(0)}};
+        return MinkowskiSum{{at(3), at(-2), at(0)}};
       case 4:
-        return MinkowskiDifference<double>{at(2), at(1)};
+        return MinkowskiDifference{at(2), at(1)};
       case 5:
-        return HullOf<double>{{at(1), at(1), points(place_)}};
+        return HullOf{{at(1), at(1), points(place_)}};
       case 6:
-        return Rounded<double>{random_.uniform(0.01, 0.5), at(1)};
+        return Rounded{random_.uniform(0.01, 0.5), at(1)};
       case 7:
-        return Rounded<double>{random_.uniform(0.01, 0.5), points(place_)};
+        return Rounded{random_.uniform(0.01, 0.5), points(place_)};
       case 8: {  // there and back
         Mat3<double> turn;
         turn << 0, 1, 0, 0, 0, 1, 1, 0, 0;
         const V inner = turn.transpose() * (3 * place_);
-        return Transform<double>{
-            S(Transform<double>{leaf(),
-                                Affine<double>{linear(), inner + in_grains(random_.in_cube())}}),
+        return Transform{
+            S(Transform{leaf(), Affine<double>{linear(), inner + in_grains(random_.in_cube())}}),
             Affine<double>{turn, V(in_grains(random_.in_cube()) - 2 * place_)}};
       }
       default:
-        return MinkowskiSum<double>{{S(HullOf<double>{{at(1), at(1)}}),
-                                     S(MinkowskiDifference<double>{at(1), at(1)}),
-                                     S(Rounded<double>{0.1, at(0)})}};
+        return MinkowskiSum{{S(HullOf{{at(1), at(1)}}), S(MinkowskiDifference{at(1), at(1)}),
+                             S(Rounded{0.1, at(0)})}};
     }
   }
   static constexpr std::array<const char*, 10> kinds = {"leaf",
@@ -152,7 +149,7 @@ struct Truth {
   double slope = 1;  ///< of the normal against the ray
 };
 
-Truth truth_of(const Shape<long double>& shape, const Ray<double>& ray) {
+Truth truth_of(const Shape& shape, const Ray<double>& ray) {
   const Ball<Long> ball = ball_around(bounds_of<Long>(shape));
   const Ray<Long> same{ray.origin.cast<Long>(), ray.direction.cast<Long>(), Long(ray.t_max)};
   const RayNearBall<Long> near =
@@ -242,8 +239,8 @@ TEST_P(Places, hold_the_truth) {
       Random random(1000 * seed + 7);
       const V place = in_grains(V(distance * random.direction()));
       const S here = Maker(seed, V::Zero()).of_kind(kind), there = Maker(seed, place).of_kind(kind);
-      const Shape<long double> fine = convert<long double>(here);
-      const PreparedShape<double> by_pose(here, Affine<double>{Mat3<double>::Identity(), place}),
+      const Shape fine = here;
+      const PreparedShape by_pose(here, Affine<double>{Mat3<double>::Identity(), place}),
           in_shape(there);
       Instances instances;
       instances.add(here, Affine<double>{Mat3<double>::Identity(), place});
@@ -314,7 +311,7 @@ struct Needle {
 
   S shape() const {
     const auto mapped = [](const Mat3<double>& map, S inner, const V& to) {
-      return S(Transform<double>{std::move(inner), Affine<double>{map, to}});
+      return S(Transform{std::move(inner), Affine<double>{map, to}});
     };
     return mapped(maps[0], mapped(maps[1], mapped(maps[2], leaf, V::Zero()), V::Zero()), place);
   }
@@ -360,16 +357,15 @@ TEST(NeedlesByMaps, hold_the_truth) {
       for (std::uint64_t seed = 0; seed < std::uint64_t(number_of_cases(300)); ++seed) {
         Random random(seed);
         const auto r = [&] { return random.uniform(0.3, 1); };
-        const std::array<S, 6> leaves = {
-            Sphere<double>{r()},       Box<double>{{r(), r(), r()}},
-            Capsule<double>{r(), r()}, Cylinder<double>{r(), r()},
-            Cone<double>{r(), r()},    Ellipsoid<double>{{r(), r(), r()}}};
+        const std::array<S, 6> leaves = {Sphere{r()},       Box{{r(), r(), r()}},
+                                         Capsule{r(), r()}, Cylinder{r(), r()},
+                                         Cone{r(), r()},    Ellipsoid{{r(), r(), r()}}};
         const Needle needle{
             leaves[seed % leaves.size()],
             {random.rotation(), Mat3<double>(V(1, plate ? 1 : thin, thin).asDiagonal()),
              random.rotation()},
             seed % 2 ? V::Zero() : V(1e3 * random.in_cube())};
-        const PreparedShape<double> prepared(needle.shape());
+        const PreparedShape prepared(needle.shape());
         for (int i = 0; i < 10; ++i) {
           const V target = needle.outward(0.9 * random.in_cube());
           const V origin = needle.place + 3 * random.direction();

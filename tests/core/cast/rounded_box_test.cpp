@@ -4,10 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
-#include "core/derived/convert.h"
 #include "tests/support/cast_truth.h"
 #include "tests/support/ray_families.h"
-#include "tests/support/rounded.h"
 
 namespace minkray::testing {
 namespace {
@@ -23,10 +21,10 @@ struct Form {
       : half_extents(box), radii(ellipsoid) {}
 
   bool is_by_ball() const { return radii == Vec3<double>::Constant(radii.x()); }
-  Shape<double> shape() const {
-    const Shape<double> box = Box{half_extents};
-    if (is_by_ball()) return Rounded<double>{radii.x(), box};
-    return MinkowskiSum<double>{{box, Shape<double>(Ellipsoid<double>{radii})}};
+  Shape shape() const {
+    const Shape box = Box{half_extents};
+    if (is_by_ball()) return Rounded{radii.x(), box};
+    return MinkowskiSum{{box, Shape(Ellipsoid{radii})}};
   }
   /// Factor of rounding that is relative to size.
   double slenderness() const { return radii.maxCoeff() / radii.minCoeff(); }
@@ -56,31 +54,28 @@ CastTruth truth_of(const Form& form, const Ray<double>& ray) {
 }
 
 /// The shape as T holds it.
-template <class T>
 Form held(const Form& form) {
-  return {form.half_extents.cast<T>().template cast<double>(),
-          form.radii.cast<T>().template cast<double>()};
+  return {form.half_extents.cast<double>().cast<double>(),
+          form.radii.cast<double>().cast<double>()};
 }
 
-template <class T>
-void add_cast(CastOutcome& outcome, const Form& form, double R, const PreparedShape<T>& prepared,
-              const Ray<T>& ray) {
-  const Ray<double> known = in_double(ray);
+void add_cast(CastOutcome& outcome, const Form& form, double R, const PreparedShape& prepared,
+              const Ray<double>& ray) {
+  const Ray<double> known = ray;
   // The model's own answers: closed forms come before it.
-  CastOptions<T> options;
+  CastOptions options;
   options.solver = SolverKind::jet;
   outcome.add(cast_ray(prepared, ray, options), truth_of(form, known), known.direction, R);
 }
 
-template <class T>
 CastOutcome cast_at(const Form& wanted, RayFamily family, int count) {
-  const Form form = held<T>(wanted);
-  const Shape<double> same = form.shape();
-  const PreparedShape<T> prepared(convert<T>(same));
+  const Form form = held(wanted);
+  const Shape same = form.shape();
+  const PreparedShape prepared(same);
   FamilyRays rays(same, family, 83);
   CastOutcome outcome;
   for (int i = 0; i < count; ++i)
-    add_cast<T>(outcome, form, rays.ball().radius, prepared, rounded_to<T>(rays.next()));
+    add_cast(outcome, form, rays.ball().radius, prepared, rays.next());
   return outcome;
 }
 
@@ -109,77 +104,68 @@ std::string name_of(const Form& form) {
 }
 
 /// Rounding error of a support plane: a few epsilon.
-template <class T>
-constexpr double exactness = 4 * std::numeric_limits<T>::epsilon();
+constexpr double exactness = 4 * std::numeric_limits<double>::epsilon();
 
-template <class T>
 void check_ordinary(RayFamily family) {
   int misses = 0;
   for (const Form& form : forms()) {
     SCOPED_TRACE(name_of(form));
     const int count = 200;
-    const CastOutcome outcome = cast_at<T>(form, family, count);
+    const CastOutcome outcome = cast_at(form, family, count);
     EXPECT_EQ(outcome.wrong, 0);
     EXPECT_EQ(outcome.others, 0);
-    EXPECT_LE(outcome.worst, exactness<T> * form.slenderness());
-    EXPECT_LE(outcome.unproven, exactness<T> * form.slenderness());
+    EXPECT_LE(outcome.worst, exactness * form.slenderness());
+    EXPECT_LE(outcome.unproven, exactness * form.slenderness());
     misses += outcome.misses;
   }
   EXPECT_GT(misses, 300);
 }
 
 TEST(RoundedBox, is_hit_to_rounding) {
-  check_ordinary<double>(RayFamily::random);
-  check_ordinary<float>(RayFamily::random);
-  check_ordinary<float>(RayFamily::far);
+  check_ordinary(RayFamily::random);
 }
 
 TEST(RoundedBox, is_grazed_to_rounding) {
-  check_ordinary<double>(RayFamily::grazing);
-  check_ordinary<float>(RayFamily::grazing);
+  check_ordinary(RayFamily::grazing);
 }
 
 /// Rays along axes, edges and in the planes of faces, which they touch within rounding.
-template <class T>
 void check_degenerate() {
   for (const Form& form : forms()) {
     SCOPED_TRACE(name_of(form));
     const int count = 200;
-    const CastOutcome outcome = cast_at<T>(form, RayFamily::degenerate, count);
+    const CastOutcome outcome = cast_at(form, RayFamily::degenerate, count);
     EXPECT_EQ(outcome.wrong, 0);
     EXPECT_EQ(outcome.others, 0);
     EXPECT_GT(outcome.hits, 0);
-    EXPECT_LE(outcome.worst, 2 * exactness<T> * form.slenderness());
+    EXPECT_LE(outcome.worst, 2 * exactness * form.slenderness());
   }
 }
 
 TEST(RoundedBox, is_hit_by_rays_along_its_edges_and_in_its_planes) {
-  check_degenerate<double>();
-  check_degenerate<float>();
+  check_degenerate();
 }
 
 /// Rounded by no more than a few roundings of the box's size, it is a box.
-template <class T>
 void check_hardly_rounded() {
   for (const double roundings : {0.3, 1.0, 5.0, 100.0, 1e4}) {
     SCOPED_TRACE(roundings);
-    const Form form{{1, 0.7, 0.5}, roundings * std::numeric_limits<T>::epsilon()};
+    const Form form{{1, 0.7, 0.5}, roundings * std::numeric_limits<double>::epsilon()};
     for (const RayFamily family : {RayFamily::random, RayFamily::grazing, RayFamily::degenerate}) {
-      const CastOutcome outcome = cast_at<T>(form, family, 500);
+      const CastOutcome outcome = cast_at(form, family, 500);
       EXPECT_EQ(outcome.wrong, 0);
       EXPECT_EQ(outcome.others, 0);
       if (family != RayFamily::degenerate) {
-        EXPECT_LE(outcome.worst, exactness<T>);
+        EXPECT_LE(outcome.worst, exactness);
       } else {
-        EXPECT_LE(outcome.worst, static_cast<double>(tolerance::gjk_stalled<T>));
+        EXPECT_LE(outcome.worst, static_cast<double>(tolerance::gjk_stalled<double>));
       }
     }
   }
 }
 
 TEST(RoundedBox, that_is_hardly_rounded_is_hit_and_missed) {
-  check_hardly_rounded<double>();
-  check_hardly_rounded<float>();
+  check_hardly_rounded();
 }
 
 /// The ray falls towards the far edge's cylinder or corner's ball, whose normal leans with it:
@@ -188,10 +174,9 @@ TEST(RoundedBox, that_is_hardly_rounded_is_hit_and_missed) {
 ///     ______ ----___
 ///    |      \       ---
 ///    |       |
-template <class T>
 void check_far_sides() {
-  const Form form = held<T>({{1, 0.7, 0.5}, 0.2});
-  const PreparedShape<T> prepared(convert<T>(form.shape()));
+  const Form form = held({{1, 0.7, 0.5}, 0.2});
+  const PreparedShape prepared(form.shape());
   const double R = form.half_extents.norm() + form.radii.x();
   Random random(17);
   CastOutcome outcome;
@@ -202,24 +187,23 @@ void check_far_sides() {
     const double fall = std::pow(10.0, random.uniform(-2, -0.5));
     const Vec3<double> r = (across - n * fall).normalized();
     const Vec3<double> at = form.half_extents.cwiseProduct(n.cwiseSign()) + n * form.radii.x();
-    add_cast<T>(outcome, form, R, prepared, rounded_to<T>(Ray<double>{at - 5 * R * r, r}));
+    add_cast(outcome, form, R, prepared, Ray<double>{at - 5 * R * r, r});
   }
   EXPECT_EQ(outcome.wrong, 0);
   EXPECT_EQ(outcome.others, 0);
   EXPECT_EQ(outcome.misses, 0);
-  EXPECT_LE(outcome.worst, exactness<T>);
-  EXPECT_LE(outcome.unproven, exactness<T>);
+  EXPECT_LE(outcome.worst, exactness);
+  EXPECT_LE(outcome.unproven, exactness);
 }
 
 TEST(RoundedBox, is_hit_on_sides_that_lean_with_the_ray) {
-  check_far_sides<double>();
-  check_far_sides<float>();
+  check_far_sides();
 }
 
 TEST(RoundedBox, is_hit_by_rays_parallel_to_an_edge_on_the_corners_ball) {
   const Vec3<double> h(1, 0.7, 0.5);
   const double radius = 0.2;
-  const PreparedShape<double> shape(Form{h, radius}.shape());
+  const PreparedShape shape(Form{h, radius}.shape());
   Random random(23);
   for (int i = 0; i < 300; ++i) {
     const int axis = random.below(3), x = (axis + 1) % 3, y = (axis + 2) % 3;
@@ -239,12 +223,11 @@ TEST(RoundedBox, is_hit_by_rays_parallel_to_an_edge_on_the_corners_ball) {
 }
 
 TEST(RoundedBox, that_is_flat_in_all_or_two_directions_is_a_sphere_or_a_capsule) {
-  const PreparedShape<double> point(Form{{0, 0, 0}, 0.3}.shape()), ball(Sphere<double>{0.3});
-  const PreparedShape<double> rod(Form{{0, 0, 0.8}, 0.3}.shape()),
-      capsule(Shape<double>(Capsule<double>{0.3, 0.8}));
+  const PreparedShape point(Form{{0, 0, 0}, 0.3}.shape()), ball(Sphere{0.3});
+  const PreparedShape rod(Form{{0, 0, 0.8}, 0.3}.shape()), capsule(Shape(Capsule{0.3, 0.8}));
   Random random(29);
   int hits = 0;
-  const auto compare = [&](const PreparedShape<double>& a, const PreparedShape<double>& b) {
+  const auto compare = [&](const PreparedShape& a, const PreparedShape& b) {
     const Vec3<double> origin = random.direction() * 4;
     const Ray<double> ray{origin, random.direction() * 0.6 - origin};
     const CastResult<double> on_a = cast_ray(a, ray), on_b = cast_ray(b, ray);
@@ -265,19 +248,19 @@ TEST(RoundedBox, that_is_flat_in_all_or_two_directions_is_a_sphere_or_a_capsule)
 
 TEST(RoundedBox, mirrored_with_the_ray_has_the_same_hit_bit_for_bit) {
   const Form form{{1, 0.7, 0.5}, 0.2};
-  const PreparedShape<float> prepared(convert<float>(form.shape()));
-  const Shape<double> shape = form.shape();
+  const PreparedShape prepared(form.shape());
+  const Shape shape = form.shape();
   for (const RayFamily family : {RayFamily::random, RayFamily::grazing}) {
     FamilyRays rays(shape, family, 31);
     for (int i = 0; i < 200; ++i) {
-      const Ray<float> ray = rounded_to<float>(rays.next());
-      const CastResult<float> result = cast_ray(prepared, ray);
+      const Ray<double> ray = rays.next();
+      const CastResult<double> result = cast_ray(prepared, ray);
       for (int mirrors = 1; mirrors < 8; ++mirrors) {
-        const Vec3<float> mirror(mirrors & 1 ? -1.f : 1.f, mirrors & 2 ? -1.f : 1.f,
-                                 mirrors & 4 ? -1.f : 1.f);
-        const CastResult<float> other = cast_ray(
+        const Vec3<double> mirror(mirrors & 1 ? -1.0 : 1.0, mirrors & 2 ? -1.0 : 1.0,
+                                  mirrors & 4 ? -1.0 : 1.0);
+        const CastResult<double> other = cast_ray(
             prepared,
-            Ray<float>{ray.origin.cwiseProduct(mirror), ray.direction.cwiseProduct(mirror)});
+            Ray<double>{ray.origin.cwiseProduct(mirror), ray.direction.cwiseProduct(mirror)});
         ASSERT_EQ(other.status, result.status);
         if (result.status != Status::hit) continue;
         EXPECT_EQ(other.t_base, result.t_base);

@@ -2,7 +2,6 @@
 // Compares results of the filter at rounded hulls, triangles and segments with the union of their
 // facets' prisms and their edges' capsules, in more digits: no bound is broken, no hit or miss is
 // false.
-#include "core/derived/convert.h"
 #include "tests/oracle/rounded_hull.h"
 #include "tests/support/filter_cases.h"
 #include "tests/support/hull_points.h"
@@ -11,16 +10,14 @@
 namespace minkray::testing {
 namespace {
 
-using S = Shape<double>;
+using S = Shape;
 
 /// Two points are a segment, three a triangle.
 S rounded_hull(double radius, const Points& points) {
-  if (points.size() == 2)
-    return Rounded<double>{radius, Nested<double>(S(Segment<double>{{points[0], points[1]}}))};
+  if (points.size() == 2) return Rounded{radius, Nested(S(Segment{{points[0], points[1]}}))};
   if (points.size() == 3)
-    return Rounded<double>{radius,
-                           Nested<double>(S(Triangle<double>{{points[0], points[1], points[2]}}))};
-  return Rounded<double>{radius, Nested<double>(S(Hull<double>{PointCloud<double>(points)}))};
+    return Rounded{radius, Nested(S(Triangle{{points[0], points[1], points[2]}}))};
+  return Rounded{radius, Nested(S(Hull{PointCloud(points)}))};
 }
 
 std::vector<NamedPoints> cores() {
@@ -35,36 +32,29 @@ std::vector<NamedPoints> cores() {
   return named;
 }
 
-template <class T>
-bool has_form(const PreparedShape<T>& prepared) {
+bool has_form(const PreparedShape& prepared) {
   return prepared.definition().form().kind != FormKind::none;
 }
 
-template <class T>
-RoundedHull oracle_of(const PreparedShape<T>& prepared) {
-  const Shape<T>& inner = prepared.inner_shape();
-  const auto& shape = std::get<Rounded<T>>(inner.kind);
+RoundedHull oracle_of(const PreparedShape& prepared) {
+  const Shape& inner = prepared.inner_shape();
+  const auto& shape = std::get<Rounded>(inner.kind);
   Points points;
   std::visit(
       [&]<class Core>(const Core& core) {
-        if constexpr (std::is_same_v<Core, Hull<T>>)
-          for (const Vec3<T>& p : core.points.points()) points.push_back(p.template cast<double>());
-        else if constexpr (std::is_same_v<Core, Segment<T>> || std::is_same_v<Core, Triangle<T>>)
-          for (const Vec3<T>& p : core.points) points.push_back(p.template cast<double>());
+        if constexpr (std::is_same_v<Core, Hull>)
+          for (const Vec3<double>& p : core.points.points()) points.push_back(p.cast<double>());
+        else if constexpr (std::is_same_v<Core, Segment> || std::is_same_v<Core, Triangle>)
+          for (const Vec3<double>& p : core.points) points.push_back(p.cast<double>());
       },
       shape.shape->kind);
   return RoundedHull(points, Long(shape.radius));
 }
 
-template <class T>
-class RoundedPolytopeFilter : public ::testing::Test {};
-using Scalars = ::testing::Types<float, double>;
-TYPED_TEST_SUITE(RoundedPolytopeFilter, Scalars);
-
 /// Hulls of some 60 points have too many features for this oracle.
 constexpr std::size_t most_points = 40;
 
-template <class T, class Next>
+template <class Next>
 Counted judge_rounded(int count, const Next& make_next) {
   Counted counted;
   int without_form = 0;
@@ -73,9 +63,9 @@ Counted judge_rounded(int count, const Next& make_next) {
     for (const double radius : {0.01, 0.1, 2.0}) {
       for (const Posed& posed : poses()) {
         SCOPED_TRACE(named.name + ", " + posed.name);
-        const Shape<T> shape = convert<T>(rounded_hull(radius, named.points));
-        const Affine<T> pose = posed.pose.cast<T>();
-        const PreparedShape<T> prepared(shape, pose);
+        const Shape shape = rounded_hull(radius, named.points);
+        const Affine<double> pose = posed.pose.cast<double>();
+        const PreparedShape prepared(shape, pose);
         if (!has_form(prepared)) {
           ++without_form;
           continue;
@@ -84,57 +74,55 @@ Counted judge_rounded(int count, const Next& make_next) {
         const auto line_in = [&](const Vec3<Long>& at, const Vec3<Long>& along) {
           return oracle.line(at, along);
         };
-        const S outer = convert<double>(Shape<T>(Transform<T>{Nested<T>(shape), pose}));
+        const S outer = Shape(Transform{Nested(shape), pose});
         Points posed_points;
         for (const Vec3<double>& p : named.points) posed_points.push_back(posed.pose(p));
         Random random(91);
         auto next = make_next(outer, posed_points);
         for (int i = 0; i < count && !::testing::Test::HasFatalFailure(); ++i)
-          judge_by(line_in, prepared, cut<T>(next(), random), counted);
+          judge_by(line_in, prepared, cut(next(), random), counted);
       }
     }
   }
-  constexpr bool is_float = std::is_same_v<T, float>;
-  EXPECT_LE(without_form, is_float ? 12 : 0);  // a turned cube's corners
+  EXPECT_EQ(without_form, 0);
   return counted;
 }
 
-template <class T>
 Counted judge_rounded_by(RayFamily family, int count) {
-  return judge_rounded<T>(count, [&](const S& shape, const Points&) {
+  return judge_rounded(count, [&](const S& shape, const Points&) {
     auto rays = std::make_shared<FamilyRays>(shape, family, 92);
     return [rays] { return rays->next(); };
   });
 }
 
-TYPED_TEST(RoundedPolytopeFilter, random_rays_are_hardly_ever_in_doubt_and_no_bound_is_broken) {
-  const Counted counted = judge_rounded_by<TypeParam>(RayFamily::random, 60);
+TEST(RoundedPolytopeFilter, random_rays_are_hardly_ever_in_doubt_and_no_bound_is_broken) {
+  const Counted counted = judge_rounded_by(RayFamily::random, 60);
   EXPECT_LE(counted.in_doubt, 0.001 * counted.answered);
   EXPECT_GT(counted.hits, 0.2 * counted.answered);
   EXPECT_GT(counted.misses, 0.1 * counted.answered);
   EXPECT_GT(counted.insides, 0);
 }
 
-TYPED_TEST(RoundedPolytopeFilter, no_bound_of_a_grazing_ray_is_broken_and_few_are_in_doubt) {
-  const Counted counted = judge_rounded_by<TypeParam>(RayFamily::grazing, 60);
+TEST(RoundedPolytopeFilter, no_bound_of_a_grazing_ray_is_broken_and_few_are_in_doubt) {
+  const Counted counted = judge_rounded_by(RayFamily::grazing, 60);
   EXPECT_LT(counted.in_doubt, 0.01 * counted.answered);
   EXPECT_GT(counted.hits, 0.2 * counted.answered);
   EXPECT_GT(counted.misses, 0.3 * counted.answered);
 }
 
-TYPED_TEST(RoundedPolytopeFilter, no_bound_of_a_degenerate_ray_is_broken) {
-  const Counted counted = judge_rounded_by<TypeParam>(RayFamily::degenerate, 60);
+TEST(RoundedPolytopeFilter, no_bound_of_a_degenerate_ray_is_broken) {
+  const Counted counted = judge_rounded_by(RayFamily::degenerate, 60);
   EXPECT_GT(counted.answered, counted.in_doubt);
 }
 
-TYPED_TEST(RoundedPolytopeFilter, no_bound_of_a_ray_from_afar_is_broken) {
-  const Counted counted = judge_rounded_by<TypeParam>(RayFamily::far, 60);
+TEST(RoundedPolytopeFilter, no_bound_of_a_ray_from_afar_is_broken) {
+  const Counted counted = judge_rounded_by(RayFamily::far, 60);
   EXPECT_GT(counted.answered, counted.in_doubt);
 }
 
-TYPED_TEST(RoundedPolytopeFilter, no_bound_of_a_ray_along_edges_is_broken) {
-  const Counted counted = judge_rounded<TypeParam>(60, [](const S& shape, const Points& points) {
-    const double R = ball_around(bounds_of<double>(shape)).radius;
+TEST(RoundedPolytopeFilter, no_bound_of_a_ray_along_edges_is_broken) {
+  const Counted counted = judge_rounded(60, [](const S& shape, const Points& points) {
+    const double R = ball_around(bounds_of(shape)).radius;
     auto rays = std::make_shared<PointRays>(points, R);
     return [rays] { return rays->next(); };
   });
@@ -145,7 +133,7 @@ TYPED_TEST(RoundedPolytopeFilter, no_bound_of_a_ray_along_edges_is_broken) {
 /// the face's two triangles at no distance, and was reported as a miss by the same edge of the
 /// face opposite: to both of its triangles, the direction into the cube is a normal as well.
 TEST(RoundedPolytope, a_line_in_a_faces_plane_is_no_miss) {
-  const PreparedShape<double> shape(rounded_hull(0.1, cube()));
+  const PreparedShape shape(rounded_hull(0.1, cube()));
   const CastResult<double> answer =
       cast_ray(shape, Ray<double>{{-7.9929982039150005, -7.5754525137685294, -1},
                                   {1.3785996407830001, 1.3150905027537059, 0}});
@@ -154,12 +142,11 @@ TEST(RoundedPolytope, a_line_in_a_faces_plane_is_no_miss) {
 }
 
 /// The checker uses supports only.
-TYPED_TEST(RoundedPolytopeFilter, answers_are_certified) {
-  using T = TypeParam;
+TEST(RoundedPolytopeFilter, answers_are_certified) {
   for (const NamedPoints& named : cores()) {
     SCOPED_TRACE(named.name);
-    const Shape<T> shape = convert<T>(rounded_hull(0.1, named.points));
-    const PreparedShape<T> prepared(shape);
+    const Shape shape = rounded_hull(0.1, named.points);
+    const PreparedShape prepared(shape);
     if (prepared.centre().norm() > 10) continue;  // rounded to that
     expect_certified(shape, prepared, 93, 60);
   }

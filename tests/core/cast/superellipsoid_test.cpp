@@ -4,10 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
-#include "core/derived/convert.h"
 #include "tests/support/cast_truth.h"
 #include "tests/support/ray_families.h"
-#include "tests/support/rounded.h"
 
 namespace minkray::testing {
 namespace {
@@ -54,18 +52,17 @@ CastTruth truth_of(const Line& line, Long R) {
   return {true, beside, t, line.normal(t).normalized()};
 }
 
-template <class T>
-CastOutcome cast_at(const Superellipsoid<double>& wanted, RayFamily family, int count) {
-  const Shape<T> shape = convert<T>(Shape<double>(wanted));
-  const Shape<double> same = convert<double>(shape);
-  const auto& exact = std::get<Superellipsoid<double>>(same.kind);
-  const PreparedShape<T> prepared(shape);
+CastOutcome cast_at(const Superellipsoid& wanted, RayFamily family, int count) {
+  const Shape shape = Shape(wanted);
+  const Shape same = shape;
+  const auto& exact = std::get<Superellipsoid>(same.kind);
+  const PreparedShape prepared(shape);
   FamilyRays rays(same, family, 83);
   const double R = rays.ball().radius;
   CastOutcome outcome;
   for (int i = 0; i < count; ++i) {
-    const Ray<T> ray = rounded_to<T>(rays.next());
-    const Ray<double> known = in_double(ray);
+    const Ray<double> ray = rays.next();
+    const Ray<double> known = ray;
     const Line line{exact.radii.cast<Long>(), known.origin.cast<Long>(),
                     known.direction.cast<Long>(), exact.exponent};
     outcome.add(cast_ray(prepared, ray), truth_of(line, R), known.direction, R);
@@ -73,8 +70,8 @@ CastOutcome cast_at(const Superellipsoid<double>& wanted, RayFamily family, int 
   return outcome;
 }
 
-std::vector<Superellipsoid<double>> superellipsoids() {
-  std::vector<Superellipsoid<double>> all;
+std::vector<Superellipsoid> superellipsoids() {
+  std::vector<Superellipsoid> all;
   for (const double p : {1.2, 1.5, 1.9, 2.001, 2.5, 3.0, 4.0, 5.5, 8.0, 12.0, 60.0})
     for (const Vec3<double>& radii : {Vec3<double>(1, 1, 1), Vec3<double>(0.3, 2, 0.7)})
       all.push_back({radii, p});
@@ -82,27 +79,25 @@ std::vector<Superellipsoid<double>> superellipsoids() {
   return all;
 }
 
-std::string name_of(const Superellipsoid<double>& shape) {
+std::string name_of(const Superellipsoid& shape) {
   std::ostringstream text;
   text << shape.radii.transpose() << ", p = " << shape.exponent;
   return text.str();
 }
 
 /// Rounding error of a support plane, and of the gauge: a few epsilon.
-template <class T>
-constexpr double exactness = 6 * std::numeric_limits<T>::epsilon();
+constexpr double exactness = 6 * std::numeric_limits<double>::epsilon();
 
-template <class T>
 void check_ordinary(RayFamily family) {
   int misses = 0;
-  for (const Superellipsoid<double>& shape : superellipsoids()) {
+  for (const Superellipsoid& shape : superellipsoids()) {
     SCOPED_TRACE(name_of(shape));
     const int count = 100;
-    const CastOutcome outcome = cast_at<T>(shape, family, count);
+    const CastOutcome outcome = cast_at(shape, family, count);
     EXPECT_EQ(outcome.wrong, 0);
     EXPECT_EQ(outcome.others, 0);
-    EXPECT_LE(outcome.worst, exactness<T>);
-    EXPECT_LE(outcome.unproven, exactness<T>);
+    EXPECT_LE(outcome.worst, exactness);
+    EXPECT_LE(outcome.unproven, exactness);
     // One proves, but where a ray is tangent within rounding.
     EXPECT_LE(outcome.supports, 1.05 * count);
     EXPECT_LE(outcome.most_supports, 24);
@@ -113,34 +108,29 @@ void check_ordinary(RayFamily family) {
 }
 
 TEST(Superellipsoid, is_hit_to_rounding_by_one_support_call) {
-  check_ordinary<double>(RayFamily::random);
-  check_ordinary<float>(RayFamily::random);
-  check_ordinary<float>(RayFamily::far);
+  check_ordinary(RayFamily::random);
 }
 
 TEST(Superellipsoid, is_grazed_to_rounding_by_one_support_call) {
-  check_ordinary<double>(RayFamily::grazing);
-  check_ordinary<float>(RayFamily::grazing);
+  check_ordinary(RayFamily::grazing);
 }
 
 /// Rays along axes and in coordinate planes, where curvature vanishes or is infinite, at the
 /// middle of flat sides and tangential there.
-template <class T>
 void check_degenerate() {
-  for (const Superellipsoid<double>& shape : superellipsoids()) {
+  for (const Superellipsoid& shape : superellipsoids()) {
     SCOPED_TRACE(name_of(shape));
-    const CastOutcome outcome = cast_at<T>(shape, RayFamily::degenerate, 100);
+    const CastOutcome outcome = cast_at(shape, RayFamily::degenerate, 100);
     EXPECT_EQ(outcome.wrong, 0);
     EXPECT_LE(outcome.others, 1);  // that did not converge
     // Casts that the GJK ray cast has finished are right to its own rounding.
-    EXPECT_LE(outcome.worst, static_cast<double>(tolerance::gjk_stalled<T>));
+    EXPECT_LE(outcome.worst, static_cast<double>(tolerance::gjk_stalled<double>));
     EXPECT_GT(outcome.hits, 0);
   }
 }
 
 TEST(Superellipsoid, is_hit_by_rays_along_its_axes_and_in_its_planes) {
-  check_degenerate<double>();
-  check_degenerate<float>();
+  check_degenerate();
 }
 
 /// Next to the octahedron and next to the box, which the bands above would be too narrow for: the
@@ -148,8 +138,8 @@ TEST(Superellipsoid, is_hit_by_rays_along_its_axes_and_in_its_planes) {
 TEST(Superellipsoid, of_extreme_exponents_is_hit_and_missed) {
   for (const double p : {1.0001, 1.01, 1e3, 1e6, 1e12}) {
     SCOPED_TRACE(p);
-    const Superellipsoid<double> shape{{1, 0.7, 0.5}, p};
-    const CastOutcome outcome = cast_at<double>(shape, RayFamily::random, 300);
+    const Superellipsoid shape{{1, 0.7, 0.5}, p};
+    const CastOutcome outcome = cast_at(shape, RayFamily::random, 300);
     EXPECT_EQ(outcome.wrong, 0);
     EXPECT_EQ(outcome.others, 0);
     EXPECT_LE(outcome.worst, static_cast<double>(tolerance::gjk_stalled<double>));
@@ -162,7 +152,7 @@ TEST(Superellipsoid, of_extreme_exponents_is_hit_and_missed) {
 /// the support point moves with the direction, which the difference of two support points
 /// measures.
 TEST(Superellipsoid, has_the_curvature_of_its_jet_up_to_its_creases) {
-  const Superellipsoid<Long> shape{{0.045L, 0.09L, 9.7L}, 1.16L};
+  const Superellipsoid shape{{0.045, 0.09, 9.7}, 1.16};
   for (Long slope = 0.3L; slope > 1e-6L; slope /= 4) {
     SCOPED_TRACE(static_cast<double>(slope));
     const Vec3<Long> n(4, 7, slope * 0.06L), across(0, 0, n.z() * 0.0001L);

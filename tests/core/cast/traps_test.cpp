@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include "core/cast/cast.h"
-#include "core/derived/convert.h"
 #include "core/shape_cast/distance.h"
 #include "tests/support/ray_families.h"
 #include "tests/support/sample_shapes.h"
@@ -36,30 +35,24 @@ TEST(Trap, fires_at_zero_by_zero_and_at_a_division_by_zero_and_at_nothing_else) 
   EXPECT_TRUE(runs_without_trap([&] { result = one / three; }));
 }
 
-template <class T>
-class Traps : public ::testing::Test {};
-using Precisions = ::testing::Types<float, double>;
-TYPED_TEST_SUITE(Traps, Precisions);
-
 /// Random, grazing and far rays at the sample shapes that are of none of these kinds. Rays that the
 /// filter leaves to models are left out: those divide first and choose afterwards.
-template <class T>
 void cast_with_traps(SolverKind solver, std::span<const std::string_view> left_out,
                      int fewest_shapes) {
   constexpr int rays_each = 200;
   int shapes = 0, hits = 0, casts = 0;
-  CastOptions<T> options;
+  CastOptions options;
   options.solver = solver;
   for (const SampleShape& sample : sample_shapes()) {
     if (is_of(left_out, sample.name)) continue;
     ++shapes;
-    const PreparedShape<T> shape(convert<T>(sample.shape));
+    const PreparedShape shape(sample.shape);
     for (const RayFamily family : {RayFamily::random, RayFamily::grazing, RayFamily::far}) {
       FamilyRays rays(sample.shape, family, 11);
       for (int i = 0; i < rays_each; ++i) {
         const Ray<double> r = rays.next();
-        const Ray<T> ray{r.origin.cast<T>(), r.direction.cast<T>()};
-        CastResult<T> result;
+        const Ray<double> ray{r.origin, r.direction};
+        CastResult<double> result;
         if (solver == SolverKind::automatic && cast_ray(shape, ray, options).path != Path::filter)
           continue;
         ASSERT_TRUE(runs_without_trap([&] { result = cast_ray(shape, ray, options); }))
@@ -74,16 +67,15 @@ void cast_with_traps(SolverKind solver, std::span<const std::string_view> left_o
   EXPECT_GT(hits, casts / 10);
 }
 
-TYPED_TEST(Traps, none_fires_in_casts_of_the_paper) {
-  cast_with_traps<TypeParam>(SolverKind::paper, with_powers, 56);
+TEST(Traps, none_fires_in_casts_of_the_paper) {
+  cast_with_traps(SolverKind::paper, with_powers, 56);
 }
 
-TYPED_TEST(Traps, none_fires_in_casts_in_closed_form) {
-  cast_with_traps<TypeParam>(SolverKind::automatic, divided_first, 34);
+TEST(Traps, none_fires_in_casts_in_closed_form) {
+  cast_with_traps(SolverKind::automatic, divided_first, 34);
 }
 
-TYPED_TEST(Traps, none_fires_in_distances_between_shapes_apart_and_overlapping) {
-  using T = TypeParam;
+TEST(Traps, none_fires_in_distances_between_shapes_apart_and_overlapping) {
   std::vector<SampleShape> samples = sample_shapes();
   std::erase_if(samples, [](const SampleShape& sample) { return is_of(with_powers, sample.name); });
   Random random(5);
@@ -91,9 +83,9 @@ TYPED_TEST(Traps, none_fires_in_distances_between_shapes_apart_and_overlapping) 
   for (const SampleShape& a : samples)
     for (const SampleShape& b : samples) {
       const Affine<double> pose{random.rotation(), 3 * random.in_cube()};
-      const CentredShape<T> here = centred<T>(convert<T>(a.shape), {});
-      const CentredShape<T> there = centred<T>(convert<T>(b.shape), pose.cast<T>());
-      DistanceResult<T, 3> result;
+      const CentredShape here = centred(a.shape, {});
+      const CentredShape there = centred(b.shape, pose);
+      DistanceResult<double, 3> result;
       ASSERT_TRUE(runs_without_trap([&] { result = distance_between(here, there); }))
           << a.name << " and " << b.name << " at " << pose.translation.transpose();
       apart += result.distance > 0 ? 1 : 0;

@@ -52,7 +52,7 @@ TEST(Cores, of_shapes_whose_squares_are_no_numbers_are_the_same_but_for_the_unit
 }
 
 TEST(Cores, of_maps_with_columns_of_all_lengths_are_boxes_only_at_right_angles) {
-  const Shape<double> box(Box<double>{{1, 1, 1}});
+  const Shape box(Box{{1, 1, 1}});
   const Vec3<double> lengths(1e-200, 1, 1e-170);
   Mat3<double> shear = Mat3<double>::Identity();
   shear(0, 2) = 0.25;

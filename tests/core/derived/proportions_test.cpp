@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "core/derived/convert.h"
 #include "tests/support/random.h"
 #include "tests/support/sample_shapes.h"
 
@@ -13,69 +12,54 @@ namespace {
 
 using P = Vec3<double>;
 
-bool is_extreme(const Shape<double>& shape) {
+bool is_extreme(const Shape& shape) {
   return has_extreme_proportions(shape);
 }
 
-Shape<double> hull(std::vector<Vec3<double>> points) {
-  return Hull<double>{PointCloud<double>(std::move(points))};
+Shape hull(std::vector<Vec3<double>> points) {
+  return Hull{PointCloud(std::move(points))};
 }
 
-TEST(Proportions, sample_shapes_are_ordinary_in_float_and_double) {
+TEST(Proportions, sample_shapes_are_ordinary) {
   for (const SampleShape& sample : sample_shapes()) {
     EXPECT_FALSE(has_extreme_proportions(sample.shape)) << sample.name;
-    EXPECT_FALSE(has_extreme_proportions(convert<float>(sample.shape))) << sample.name;
   }
 }
 
 TEST(Proportions, do_not_depend_on_the_size) {
   for (const double size : {1e-30, 1.0, 1e30}) {
-    EXPECT_FALSE(is_extreme(Box<double>{Vec3<double>(1, 1, 1e-5) * size})) << size;
-    EXPECT_TRUE(is_extreme(Box<double>{Vec3<double>(1, 1, 1e-7) * size})) << size;
+    EXPECT_FALSE(is_extreme(Box{Vec3<double>(1, 1, 1e-5) * size})) << size;
+    EXPECT_TRUE(is_extreme(Box{Vec3<double>(1, 1, 1e-7) * size})) << size;
   }
 }
 
 TEST(Proportions, needles_with_slanted_ends_lie_askew) {
-  EXPECT_TRUE(is_extreme(CutCylinder<double>{1e-5, {0, 1}, {0.5, 0}, {5e4, 0}}));
-  EXPECT_FALSE(is_extreme(CutCylinder<double>{1e-3, {0, 1}, {0.5, 0}, {0.5, 0}}));
-  EXPECT_FALSE(is_extreme(Cylinder<double>{1e-5, 1}));
+  EXPECT_TRUE(is_extreme(CutCylinder{1e-5, {0, 1}, {0.5, 0}, {5e4, 0}}));
+  EXPECT_FALSE(is_extreme(CutCylinder{1e-3, {0, 1}, {0.5, 0}, {0.5, 0}}));
+  EXPECT_FALSE(is_extreme(Cylinder{1e-5, 1}));
 }
 
 TEST(Proportions, slanted_plates_are_as_thin_as_their_planes_are_apart) {
   const auto plate = [](double apart) {
-    return CutCylinder<double>{0.05, {0.2, 0.2 + apart}, {0.7, -0.9}, {0.7, -0.9}};
+    return CutCylinder{0.05, {0.2, 0.2 + apart}, {0.7, -0.9}, {0.7, -0.9}};
   };
   EXPECT_TRUE(is_extreme(plate(3e-10)));
   EXPECT_FALSE(is_extreme(plate(1e-3)));
   EXPECT_FALSE(is_extreme(plate(0)));  // an ellipse
-  EXPECT_TRUE(is_extreme(CutCylinder<double>{1, {0, 1e-4}, {0, 0.5}, {0, 0.5 + 1e-5}}));
-  EXPECT_FALSE(is_extreme(CutCylinder<double>{1, {0, 0.1}, {0, 0}, {0, 0.1}}));  // a wedge
-}
-
-TEST(Proportions, plates_that_are_a_few_roundings_thick_are_flat_but_for_rounding) {
-  const auto plate = [](double thickness) {
-    std::vector<P> corners;
-    for (int i = 0; i < 8; ++i)
-      corners.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, (i & 4 ? 1 : -1) * thickness / 2);
-    return convert<float>(hull(corners));
-  };
-  EXPECT_TRUE(is_flat_but_for_rounding(plate(1e-6)));
-  EXPECT_FALSE(is_flat_but_for_rounding(plate(1e-4)));
-  EXPECT_FALSE(is_flat_but_for_rounding(Shape<float>(Box<float>{{1, 1, 1e-6f}})));
+  EXPECT_TRUE(is_extreme(CutCylinder{1, {0, 1e-4}, {0, 0.5}, {0, 0.5 + 1e-5}}));
+  EXPECT_FALSE(is_extreme(CutCylinder{1, {0, 0.1}, {0, 0}, {0, 0.1}}));  // a wedge
 }
 
 /// Half of the least number is rounded to nothing: capsules and cylinders of that radius counted as
 /// segments, and were missed by rays that met them.
 TEST(Proportions, the_least_number_is_a_length) {
   const double least = std::numeric_limits<double>::denorm_min();
-  const float least_float = std::numeric_limits<float>::denorm_min();
-  EXPECT_TRUE(is_extreme(Capsule<double>{least, 0.5}));
-  EXPECT_TRUE(is_extreme(Cylinder<double>{least, 0.5}));
-  EXPECT_TRUE(is_extreme(Cylinder<double>{1, least}));
-  EXPECT_TRUE(is_extreme(CutCylinder<double>{1, {0, least}}));
-  EXPECT_TRUE(is_extreme(Box<double>{{1, 2, least}}));
-  EXPECT_FALSE(is_extreme(Box<double>{{least, least, least}}));
-  EXPECT_TRUE(has_extreme_proportions(Shape<float>(Cylinder<float>{least_float, 0.5f})));
+  EXPECT_TRUE(is_extreme(Capsule{least, 0.5}));
+  EXPECT_TRUE(is_extreme(Cylinder{least, 0.5}));
+  EXPECT_TRUE(is_extreme(Cylinder{1, least}));
+  EXPECT_TRUE(is_extreme(CutCylinder{1, {0, least}}));
+  EXPECT_TRUE(is_extreme(Box{{1, 2, least}}));
+  EXPECT_FALSE(is_extreme(Box{{least, least, least}}));
 }
 
 /// Products of such a thickness have few digits: planes through three corners leaned by 3e-4.
@@ -89,16 +73,14 @@ TEST(Proportions, what_is_flat_but_for_a_number_without_digits_is_thin) {
       EXPECT_EQ(is_extreme(plate(size, thickness)), thickness < 1e-292 * size) << size;
       EXPECT_FALSE(is_extreme(plate(size, 0))) << size;
     }
-  EXPECT_TRUE(is_extreme(Rounded<double>{1, plate(1, 1e-320)}));
-  EXPECT_TRUE(has_extreme_proportions(convert<float>(plate(1, 1e-42))));
-  EXPECT_FALSE(has_extreme_proportions(convert<float>(plate(1, 1e-30))));
+  EXPECT_TRUE(is_extreme(Rounded{1, plate(1, 1e-320)}));
 }
 
 TEST(Proportions, what_is_flat_is_not_thin) {
-  EXPECT_FALSE(is_extreme(Box<double>{{1, 2, 0}}));
-  EXPECT_FALSE(is_extreme(Disk<double>{1}));
-  EXPECT_FALSE(is_extreme(Segment<double>{{Vec3<double>(1, 2, 3), Vec3<double>(-4, 5, 0.1)}}));
-  EXPECT_FALSE(is_extreme(Point<double>{{1e-9, 1, 1e9}}));
+  EXPECT_FALSE(is_extreme(Box{{1, 2, 0}}));
+  EXPECT_FALSE(is_extreme(Disk{1}));
+  EXPECT_FALSE(is_extreme(Segment{{Vec3<double>(1, 2, 3), Vec3<double>(-4, 5, 0.1)}}));
+  EXPECT_FALSE(is_extreme(Point{{1e-9, 1, 1e9}}));
   Random random(1);
   for (int i = 0; i < 100; ++i) {
     const Vec3<double> a = random.direction(), b = a.unitOrthogonal();
@@ -112,22 +94,19 @@ TEST(Proportions, needles_thinner_than_rounding_are_no_segments) {
     const Vec3<double> a = random.direction();
     for (const double thickness : {1e-10, 1e-14}) {
       const Vec3<double> beside = 0.3 * a + thickness * a.unitOrthogonal();
-      EXPECT_TRUE(is_extreme(Triangle<double>{{a, -a, beside}})) << i << ": " << thickness;
+      EXPECT_TRUE(is_extreme(Triangle{{a, -a, beside}})) << i << ": " << thickness;
     }
-    EXPECT_FALSE(is_extreme(Triangle<double>{{a, -a, a}})) << i;
+    EXPECT_FALSE(is_extreme(Triangle{{a, -a, a}})) << i;
   }
-  EXPECT_FALSE(is_extreme(Triangle<double>{{P(0, 0, 0), P(1, 2, 3), P(2, 4, 6)}}));
+  EXPECT_FALSE(is_extreme(Triangle{{P(0, 0, 0), P(1, 2, 3), P(2, 4, 6)}}));
 }
 
 /// A shape whose coordinates are coarse compared with it is rounded, not thin.
 TEST(Proportions, what_is_far_from_its_frames_origin_is_ordinary) {
   for (const double distance : {1e4, 1e6, 1e8}) {
     const P o(distance, -distance, distance);
-    const Shape<double> triangle = Triangle<double>{{o, P(o + P(1, 0, 0)), P(o + P(0, 0.05, 0.3))}};
+    const Shape triangle = Triangle{{o, P(o + P(1, 0, 0)), P(o + P(0, 0.05, 0.3))}};
     EXPECT_FALSE(is_extreme(triangle)) << distance;
-    if (distance < 1e6) {
-      EXPECT_FALSE(has_extreme_proportions(convert<float>(triangle)));
-    }
   }
 }
 
@@ -146,51 +125,35 @@ TEST(Proportions, slivers_are_found_however_they_lie) {
     EXPECT_TRUE(is_extreme(box(1, 1e-4, 1e-5))) << i;
     EXPECT_FALSE(is_extreme(box(1, 1, 1e-3))) << i;
     const Vec3<double> a = turn.col(0), b = turn.col(1);
-    EXPECT_TRUE(is_extreme(Triangle<double>{{a, -a, 1e-4 * b}})) << i;
-    EXPECT_FALSE(is_extreme(Triangle<double>{{a, -a, b}})) << i;
+    EXPECT_TRUE(is_extreme(Triangle{{a, -a, 1e-4 * b}})) << i;
+    EXPECT_FALSE(is_extreme(Triangle{{a, -a, b}})) << i;
   }
-}
-
-TEST(Proportions, slivers_in_float_are_thinner_than_1_in_64) {
-  const auto sliver = [](double thin) -> Shape<float> {
-    return convert<float>(
-        Shape<double>(Triangle<double>{{P(-1, 0.1, 0), P(1, 0.1, 0), P(0, 0.1 + thin, 0)}}));
-  };
-  EXPECT_FALSE(is_sliver(sliver(1.0 / 25)));
-  EXPECT_TRUE(is_sliver(sliver(1.0 / 40)));
-  EXPECT_TRUE(is_sliver(sliver(1e-3)));
-  EXPECT_FALSE(
-      is_sliver(Shape<float>(Segment<float>{{Vec3<float>(1, 2, 3), Vec3<float>(4, 5, 6)}})));
-  EXPECT_FALSE(is_sliver(Shape<float>(Box<float>{{1, 1, 1e-3f}})));
 }
 
 TEST(Proportions, superellipsoids_with_nearly_sharp_edges_are_extreme) {
-  const auto with = [](double exponent) -> Shape<double> {
-    return Superellipsoid<double>{{1, 2, 3}, exponent};
-  };
-  const Shape<double> ball = Sphere<double>{1};
+  const auto with = [](double exponent) -> Shape { return Superellipsoid{{1, 2, 3}, exponent}; };
+  const Shape ball = Sphere{1};
   for (const double beyond : {0x1p-40, 0x1p-20, 0x1p-11}) {
     EXPECT_TRUE(is_extreme(with(1 + beyond)));
-    EXPECT_TRUE(is_extreme(Shape<double>(Rounded<double>{1, with(1 + beyond)})));
-    EXPECT_TRUE(is_extreme(Shape<double>(MinkowskiSum<double>{{ball, with(1 + beyond)}})));
+    EXPECT_TRUE(is_extreme(Shape(Rounded{1, with(1 + beyond)})));
+    EXPECT_TRUE(is_extreme(Shape(MinkowskiSum{{ball, with(1 + beyond)}})));
   }
   for (const double exponent : {1.0, 1.001, 2.0, 1e3}) EXPECT_FALSE(is_extreme(with(exponent)));
-  EXPECT_TRUE(has_extreme_proportions(convert<float>(with(1.0003))));
 }
 
 TEST(Proportions, parts_and_the_maps_around_them_count) {
-  const Nested<double> ball = Shape<double>(Sphere<double>{1});
-  const auto squeezed = [&](double by) -> Shape<double> {
-    return Transform<double>{ball, Affine<double>{Vec3<double>(1, by, 1).asDiagonal(), {0, 0, 0}}};
+  const Nested ball = Shape(Sphere{1});
+  const auto squeezed = [&](double by) -> Shape {
+    return Transform{ball, Affine<double>{Vec3<double>(1, by, 1).asDiagonal(), {0, 0, 0}}};
   };
   EXPECT_FALSE(is_extreme(squeezed(1e-5)));
   EXPECT_TRUE(is_extreme(squeezed(1e-7)));
-  EXPECT_TRUE(is_extreme(MinkowskiSum<double>{{ball, squeezed(1e-7)}}));
-  EXPECT_TRUE(is_extreme(MinkowskiDifference<double>{ball, Shape<double>(Sphere<double>{1e-7})}));
-  EXPECT_TRUE(is_extreme(HullOf<double>{{ball, Shape<double>(Disk<double>{1e17})}}));
-  EXPECT_TRUE(is_extreme(Rounded<double>{1e-7, ball}));
-  EXPECT_FALSE(is_extreme(Rounded<double>{1e-5, ball}));
-  EXPECT_FALSE(is_extreme(Rounded<double>{0.1, squeezed(1e-7)}));
+  EXPECT_TRUE(is_extreme(MinkowskiSum{{ball, squeezed(1e-7)}}));
+  EXPECT_TRUE(is_extreme(MinkowskiDifference{ball, Shape(Sphere{1e-7})}));
+  EXPECT_TRUE(is_extreme(HullOf{{ball, Shape(Disk{1e17})}}));
+  EXPECT_TRUE(is_extreme(Rounded{1e-7, ball}));
+  EXPECT_FALSE(is_extreme(Rounded{1e-5, ball}));
+  EXPECT_FALSE(is_extreme(Rounded{0.1, squeezed(1e-7)}));
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace minkray::testing {
 namespace {
 
-using S = Shape<double>;
+using S = Shape;
 using P = Vec3<double>;
 
 /// Rays at a spot near the top of a pyramid of `sides` sides, grown by a radius.
@@ -21,8 +21,7 @@ TEST(LimitsOfForms, corners_of_many_edges_are_answered_in_closed_form) {
       const double angle = 2 * std::numbers::pi * i / sides;
       points.emplace_back(std::cos(angle), std::sin(angle), 0);
     }
-    const PreparedShape<double> pyramid(
-        S(Rounded<double>{0.3, Nested<double>(S(Hull<double>{PointCloud<double>(points)}))}));
+    const PreparedShape pyramid(S(Rounded{0.3, Nested(S(Hull{PointCloud(points)}))}));
     Random random(51);
     int in_doubt = 0;
     for (int i = 0; i < 300; ++i) {
@@ -41,8 +40,8 @@ TEST(LimitsOfForms, corners_of_many_edges_are_answered_in_closed_form) {
 TEST(LimitsOfForms, hits_of_rounded_slivers_have_narrow_bounds) {
   Random random(53);
   for (double power = -16; power <= -8; power += 0.5) {
-    const S sliver = Triangle<double>{{P(-1, 0, 0), P(1, 0, 0), P(0.1, std::exp2(power), 0)}};
-    const PreparedShape<double> rounded(S(Rounded<double>{0.25, Nested<double>(sliver)}));
+    const S sliver = Triangle{{P(-1, 0, 0), P(1, 0, 0), P(0.1, std::exp2(power), 0)}};
+    const PreparedShape rounded(S(Rounded{0.25, Nested(sliver)}));
     double widest = 0;
     for (int i = 0; i < 300; ++i) {
       const P spot(random.uniform(-0.9, 0.9), random.uniform(-0.05, 0.05), 0);
@@ -59,8 +58,7 @@ TEST(LimitsOfForms, hits_of_rounded_slivers_have_narrow_bounds) {
 /// cross within it, but for what double rounds.
 TEST(LimitsOfForms, planes_that_cross_within_a_cylinder_have_no_form) {
   const auto has_form = [](double height) {
-    const PreparedShape<double> cut(
-        S(CutCylinder<double>{2, {0, height}, {0.25, -0.5}, {-0.125, 0}}));
+    const PreparedShape cut(S(CutCylinder{2, {0, height}, {0.25, -0.5}, {-0.125, 0}}));
     return cut.definition().form().kind != FormKind::none;
   };
   const double touching = 2 * std::hypot(0.375, 0.5);
@@ -75,14 +73,14 @@ TEST(LimitsOfForms, frustums_whose_apex_is_far_away_have_no_form) {
   for (const double radii : {1.0, 4.0, 7.9, 8.1, 20.0, 70.0}) {
     // With a height of 2 and a radius of 1 below, the apex is at 1 + 2 upper / (1 - upper).
     const double above = (radii * std::sqrt(2.0) - 1) / 2, upper = above / (1 + above);
-    const PreparedShape<double> frustum(S(Frustum<double>{{1, upper}, 1}));
+    const PreparedShape frustum(S(Frustum{{1, upper}, 1}));
     EXPECT_EQ(frustum.definition().form().kind == FormKind::frustum, radii < 8) << radii;
   }
 }
 
 TEST(LimitsOfForms, tapered_capsules_with_hardly_a_ball_at_an_end_have_no_form) {
   for (const double share : {0x1p-1, 0x1p-8, 0x1.2p-10, 0x1.dp-11, 0x1p-13}) {
-    const PreparedShape<double> tapered(S(TaperedCapsule<double>{{1, share}, 2}));
+    const PreparedShape tapered(S(TaperedCapsule{{1, share}, 2}));
     EXPECT_EQ(tapered.definition().form().kind == FormKind::tapered_capsule, share > 0x1p-10)
         << share;
   }
@@ -90,7 +88,7 @@ TEST(LimitsOfForms, tapered_capsules_with_hardly_a_ball_at_an_end_have_no_form) 
 
 TEST(LimitsOfForms, tapered_capsules_whose_mantle_is_hardly_one_have_no_form) {
   for (const double sine : {0.05, 0.5, 0.985, 0.995}) {
-    const PreparedShape<double> tapered(S(TaperedCapsule<double>{{1, 0.1}, 0.45 / sine}));
+    const PreparedShape tapered(S(TaperedCapsule{{1, 0.1}, 0.45 / sine}));
     EXPECT_EQ(tapered.definition().form().kind == FormKind::tapered_capsule, sine < 0.99) << sine;
   }
 }
@@ -98,7 +96,7 @@ TEST(LimitsOfForms, tapered_capsules_whose_mantle_is_hardly_one_have_no_form) {
 /// If directions are so long or so short that their numbers have room for few sizes, other solvers
 /// run, with the same result.
 TEST(LimitsOfForms, directions_of_unusual_length_are_answered_by_models) {
-  const PreparedShape<double> ball(S(Sphere<double>{1}));
+  const PreparedShape ball(S(Sphere{1}));
   const P origin(-3, 0.25, -0.5);
   const double lambda = 3 - std::sqrt(1 - origin.y() * origin.y() - origin.z() * origin.z());
   for (const double length : {0.6e-250, 1.5e-250, 1e-9, 1.0, 1e9, 0.6e250, 1.5e250}) {

@@ -143,7 +143,7 @@ TEST(ConvexHull, nothing_depends_on_the_unit_of_length) {
       for (double& x : p) x = std::ldexp(x, exponent);
     EXPECT_EQ(convex_hull(scaled).vertices, expected) << exponent;
     // The table of directions as well, which large hulls have.
-    const PointCloud<double> cloud(scaled), plain(points);
+    const PointCloud cloud(scaled), plain(points);
     for (const Vec3<double>& n : on_ellipsoid(100, {1, 1, 1}, 5)) {
       Vec3<double> support = plain.support(n);
       for (double& x : support) x = std::ldexp(x, exponent);

@@ -27,16 +27,16 @@ std::vector<Vec3<double>> prism(int sides) {
   return points;
 }
 
-FacetMesh<double> mesh_of(const std::vector<Vec3<double>>& points) {
+FacetMesh mesh_of(const std::vector<Vec3<double>>& points) {
   const ConvexHull hull = convex_hull(points);
   std::vector<Vec3<double>> vertices;
   for (const std::uint32_t v : hull.vertices) vertices.push_back(points[v]);
-  return FacetMesh<double>(hull, vertices);
+  return FacetMesh(hull, vertices);
 }
 
 TEST(FacetMesh, closes_and_every_neighbour_shares_the_edge) {
   for (const auto& points : {on_sphere(4), on_sphere(60), prism(3), prism(17)}) {
-    const FacetMesh<double> mesh = mesh_of(points);
+    const FacetMesh mesh = mesh_of(points);
     EXPECT_EQ(mesh.size(), 2 * points.size() - 4);  // Euler, for triangles
     for (std::size_t f = 0; f < mesh.size(); ++f) {
       for (std::size_t k = 0; k < 3; ++k) {
@@ -56,7 +56,7 @@ TEST(FacetMesh, closes_and_every_neighbour_shares_the_edge) {
 
 TEST(FacetMesh, normals_point_outwards) {
   for (const auto& points : {on_sphere(30), prism(9)}) {
-    const FacetMesh<double> mesh = mesh_of(points);
+    const FacetMesh mesh = mesh_of(points);
     for (std::size_t f = 0; f < mesh.size(); ++f) {
       EXPECT_NEAR(mesh[f].normal().norm(), 1, 1e-15);
       for (const Vec3<double>& p : points)
@@ -66,7 +66,7 @@ TEST(FacetMesh, normals_point_outwards) {
 }
 
 TEST(FacetMesh, finds_a_facet_near_a_direction) {
-  const FacetMesh<double> mesh = mesh_of(on_sphere(200));
+  const FacetMesh mesh = mesh_of(on_sphere(200));
   Random random(52);
   for (int i = 0; i < 1000; ++i) {
     const Vec3<double> n = random.direction();
@@ -87,7 +87,7 @@ TEST(FacetMesh, finds_sides_of_several_facets) {
     box.push_back({k & 1 ? 1.0 : -1.0, k & 2 ? 0.8 : -0.8, k & 4 ? 0.6 : -0.6});
   Random random(53);
   for (const auto& points : {box, prism(5), prism(64)}) {
-    const FacetMesh<double> mesh = mesh_of(points);
+    const FacetMesh mesh = mesh_of(points);
     for (int i = 0; i < 1000; ++i) {
       const Vec3<double> n = random.direction();
       const auto found = static_cast<std::size_t>(mesh.facing(n));
@@ -105,30 +105,16 @@ TEST(FacetMesh, finds_sides_of_several_facets) {
   }
 }
 
-TEST(FacetMesh, is_the_same_in_float) {
-  const FacetMesh<double> mesh = mesh_of(on_sphere(40));
-  const FacetMesh<float> rounded = mesh.cast<float>();
-  ASSERT_EQ(rounded.size(), mesh.size());
-  for (std::size_t f = 0; f < mesh.size(); ++f) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_EQ(rounded[f].neighbour(k), mesh[f].neighbour(k));
-      EXPECT_EQ(rounded[f].corner(k), mesh[f].corner(k).cast<float>());
-    }
-    EXPECT_EQ(rounded[f].normal(), mesh[f].normal().cast<float>());
-  }
-}
-
 /// The point furthest along a facet's normal is its first corner, or the facet is marked as
 /// unsupported.
-template <class T>
-void expect_supported(const std::vector<Vec3<T>>& points) {
-  const PointCloud<T> cloud(points);
-  const FacetMesh<T>& mesh = *cloud.facets();
+void expect_supported(const std::vector<Vec3<double>>& points) {
+  const PointCloud cloud(points);
+  const FacetMesh& mesh = *cloud.facets();
   std::size_t supported = 0;
   for (std::size_t f = 0; f < mesh.size(); ++f) {
-    const Vec3<T> n = mesh[f].normal();
-    T furthest = -std::numeric_limits<T>::infinity();
-    for (const Vec3<T>& point : cloud.points()) furthest = std::max(furthest, n.dot(point));
+    const Vec3<double> n = mesh[f].normal();
+    double furthest = -std::numeric_limits<double>::infinity();
+    for (const Vec3<double>& point : cloud.points()) furthest = std::max(furthest, n.dot(point));
     if (mesh[f].is_supported()) {
       EXPECT_GE(n.dot(mesh[f].corner(0)), furthest) << f;
     }
@@ -141,54 +127,12 @@ void expect_supported(const std::vector<Vec3<T>>& points) {
 
 TEST(FacetMesh, knows_which_corner_supports_a_facet) {
   for (const auto& points : {on_sphere(12), on_sphere(300), prism(9), prism(40)}) {
-    expect_supported<double>(points);
-    std::vector<Vec3<float>> rounded;
-    for (const Vec3<double>& point : points) rounded.push_back(point.cast<float>());
-    expect_supported<float>(rounded);
+    expect_supported(points);
   }
-}
-
-TEST(FacetMesh, knows_it_anew_where_points_were_rounded) {
-  const PointCloud<double> cloud(on_sphere(100));
-  const PointCloud<float> rounded = cloud.cast<float>();
-  const FacetMesh<float>& mesh = *rounded.facets();
-  for (std::size_t f = 0; f < mesh.size(); ++f) {
-    const Vec3<float> n = mesh[f].normal();
-    EXPECT_EQ(mesh[f].is_supported(), n.dot(mesh[f].corner(0)) >= n.dot(rounded.support(n)));
-  }
-}
-
-TEST(FacetMesh, has_normals_of_its_corners_where_it_becomes_more_precise) {
-  const PointCloud<double> cloud = PointCloud<double>(on_sphere(50)).cast<float>().cast<double>();
-  const FacetMesh<double>& mesh = *cloud.facets();
-  for (std::size_t f = 0; f < mesh.size(); ++f)
-    for (std::size_t k = 1; k < 3; ++k)
-      EXPECT_LE(std::abs(mesh[f].normal().dot(mesh[f].corner(k) - mesh[f].corner(0))), 1e-15);
-}
-
-/// A tip so small that its corners are one place as a ray sees them.
-std::vector<Vec3<double>> tip(double size) {
-  std::vector<Vec3<double>> points = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, -1}};
-  for (const double angle : {0.0, 2.0943951023931953, 4.1887902047863905})
-    points.push_back({size * std::cos(angle), size * std::sin(angle), 1});
-  return points;
-}
-
-TEST(FacetMesh, facets_too_thin_for_rounding_are_not_supported) {
-  const PointCloud<double> cloud(tip(1e-9));
-  const PointCloud<float> rounded = cloud.cast<float>();
-  const auto of_tip = [](const auto& mesh) {
-    std::vector<bool> supported;
-    for (std::size_t f = 0; f < mesh.size(); ++f)
-      if (mesh[f].normal().z() > 0.99f) supported.push_back(mesh[f].is_supported());
-    return supported;
-  };
-  EXPECT_EQ(of_tip(*cloud.facets()), std::vector<bool>{true});
-  EXPECT_EQ(of_tip(*rounded.facets()), std::vector<bool>{false});
 }
 
 TEST(FacetMesh, rows_are_the_facets) {
-  const FacetMesh<double> mesh = mesh_of(on_sphere(20));
+  const FacetMesh mesh = mesh_of(on_sphere(20));
   for (std::size_t f = 0; f < mesh.size(); ++f) {
     const auto row = mesh.numbers<0, 16>(static_cast<double>(f));
     const auto last = mesh.numbers<12, 4>(static_cast<double>(f));

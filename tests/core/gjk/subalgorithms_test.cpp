@@ -22,33 +22,33 @@ TYPED_TEST_SUITE(Subalgorithms, Kinds);
 
 TYPED_TEST(Subalgorithms, find_wolfes_point_of_random_simplices_and_after_translations) {
   constexpr int Dim = TypeParam::dimension;
-  using Point = Vec<double, Dim>;
+  using V = Vec<double, Dim>;
   std::mt19937 engine(6);
   std::uniform_real_distribution<double> coordinate(-1, 1);
   const auto point = [&] {
-    Point p;
+    V p;
     for (int i = 0; i < Dim; ++i) p[i] = coordinate(engine);
     return p;
   };
   int full = 0;
   for (int run = 0; run < 2000; ++run) {
     TypeParam simplex;
-    const Point first = 0.5 * point();
+    const V first = 0.5 * point();
     simplex.begin(first);
-    std::vector<Point> vertices;
+    std::vector<V> vertices;
     const int size = 1 + run % (Dim + 1);
     for (int i = 0; i < size; ++i) {
       vertices.push_back(point());
       simplex.add(vertices.back());
     }
-    for (const Point& x : {first, Point(0.5 * point())}) {
+    for (const V& x : {first, V(0.5 * point())}) {
       simplex.move(x);
       std::vector<oracle::Column<Dim>> y;
-      for (const Point& p : vertices) y.push_back((x - p).template cast<long double>());
-      const Point expected = oracle::nearest_to_origin<Dim>(y).template cast<double>();
+      for (const V& p : vertices) y.push_back((x - p).template cast<long double>());
+      const V expected = oracle::nearest_to_origin<Dim>(y).template cast<double>();
       const SubalgorithmAnswer<double, Dim> answer = simplex.closest();
       EXPECT_LT((answer.v - expected).norm(), 1e-10) << run;
-      Point sum = Point::Zero();
+      V sum = V::Zero();
       double weights = 0;
       for (int i = 0; i <= Dim; ++i) {
         const double weight = answer.weights[static_cast<std::size_t>(i)];
@@ -66,27 +66,27 @@ TYPED_TEST(Subalgorithms, find_wolfes_point_of_random_simplices_and_after_transl
 
 TYPED_TEST(Subalgorithms, know_nothing_of_what_they_were_asked_before) {
   constexpr int Dim = TypeParam::dimension;
-  using Point = Vec<double, Dim>;
+  using V = Vec<double, Dim>;
   TypeParam simplex;
-  simplex.begin(Point::Zero());
-  simplex.add(Point::Constant(0.25));
-  simplex.add(Point::Constant(-0.5));
-  const Point far = Point::Constant(3);
-  simplex.begin(Point::Zero());
+  simplex.begin(V::Zero());
+  simplex.add(V::Constant(0.25));
+  simplex.add(V::Constant(-0.5));
+  const V far = V::Constant(3);
+  simplex.begin(V::Zero());
   simplex.add(far);
-  EXPECT_EQ(simplex.closest().v, Point(-far));
+  EXPECT_EQ(simplex.closest().v, V(-far));
   EXPECT_EQ(simplex.furthest_squared(), far.squaredNorm());
 }
 
 TYPED_TEST(Subalgorithms, answer_degenerate_simplices_with_a_point_of_them) {
   constexpr int Dim = TypeParam::dimension;
-  using Point = Vec<double, Dim>;
+  using V = Vec<double, Dim>;
   // Collinear and nearly coincident vertices, the origin next to them: the distance is 1.
   for (const double spread : {1.0, 1e-4, 1e-8}) {
     TypeParam simplex;
-    simplex.begin(Point::Zero());
+    simplex.begin(V::Zero());
     for (int i = 0; i <= Dim; ++i) {
-      Point p = Point::Zero();
+      V p = V::Zero();
       p[0] = 1;
       p[1] = spread * (i - 0.75);
       simplex.add(p);

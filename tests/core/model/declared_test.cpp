@@ -23,9 +23,8 @@ namespace {
 ///       +--\   .            hits the box around it, and not the wedge.
 ///       |   \    .
 ///       +----\-----> x
-template <class T>
 struct Wedge {
-  Vec3<T> half_extents = Vec3<T>::Ones();
+  Vec3<double> half_extents = Vec3<double>::Ones();
 
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
@@ -44,75 +43,65 @@ struct Wedge {
 };
 
 /// A box by its declaration, under another name.
-template <class T>
-struct SaidBox : Box<T> {};
+struct SaidBox : Box {};
 
 /// Declares something, but not to us.
 struct OtherDeclaration {
   static constexpr bool declared = true;
 };
 
-template <class T, class MakeModel>
-CastResult<T> cast(MakeModel&& make_model, const Ray<T>& ray, T rounding) {
-  const Ball<T> ball{Vec3<T>::Zero(), std::sqrt(T(3)) + rounding};
-  const Vec3<T> half_extents = Vec3<T>::Constant(T(1) + rounding);
-  return result_of(model_cast<T>(make_model, ray_near<T>(ball.centre, ray), ball, half_extents,
-                                 true, 64, NoObserver()));
+template <class MakeModel>
+CastResult<double> cast(MakeModel&& make_model, const Ray<double>& ray, double rounding) {
+  const Ball<double> ball{Vec3<double>::Zero(), std::sqrt(3.0) + rounding};
+  const Vec3<double> half_extents = Vec3<double>::Constant(1.0 + rounding);
+  return result_of(model_cast<double>(make_model, ray_near<double>(ball.centre, ray), ball,
+                                      half_extents, true, 64, NoObserver()));
 }
 
-template <class T>
-CastResult<T> cast_at_wedge(const Ray<T>& ray) {
-  const Wedge<T> wedge;
-  return cast<T>(
-      [&](const Vec3<T>& s, const Vec3<T>& r) {
-        return PolytopeModel<T, Wedge<T>>(wedge, Vec3<T>::Zero(), s, r, std::sqrt(T(3)));
+CastResult<double> cast_at_wedge(const Ray<double>& ray) {
+  const Wedge wedge;
+  return cast(
+      [&](const Vec3<double>& s, const Vec3<double>& r) {
+        return PolytopeModel<double, Wedge>(wedge, Vec3<double>::Zero(), s, r, std::sqrt(3.0));
       },
-      ray, T(0));
+      ray, 0.0);
 }
 
-template <class T>
-CastResult<T> cast_at_rounded_wedge(const Ray<T>& ray, T radius) {
-  const Wedge<T> wedge;
-  return cast<T>(
-      [&](const Vec3<T>& s, const Vec3<T>& r) {
-        return TranslatesModel<T, RoundedPolytope<T, Wedge<T>>>({wedge, radius}, Vec3<T>::Zero(), s,
-                                                                r, std::sqrt(T(3)) + radius);
+CastResult<double> cast_at_rounded_wedge(const Ray<double>& ray, double radius) {
+  const Wedge wedge;
+  return cast(
+      [&](const Vec3<double>& s, const Vec3<double>& r) {
+        return TranslatesModel<double, RoundedPolytope<double, Wedge>>(
+            {wedge, radius}, Vec3<double>::Zero(), s, r, std::sqrt(3.0) + radius);
       },
       ray, radius);
 }
 
-template <class T>
-class Declarations : public ::testing::Test {};
-using Scalars = ::testing::Types<float, double>;
-TYPED_TEST_SUITE(Declarations, Scalars);
-
-TYPED_TEST(Declarations, a_wedge_is_no_box_whatever_its_size_is_called) {
-  using T = TypeParam;
-  const Ray<T> above{Vec3<T>(T(0.9), T(5), T(0.9)), -Vec3<T>::UnitY(), T(100)};
+TEST(Declarations, a_wedge_is_no_box_whatever_its_size_is_called) {
+  const Ray<double> above{Vec3<double>(0.9, 5.0, 0.9), -Vec3<double>::UnitY(), 100.0};
   EXPECT_EQ(cast_at_wedge(above).status, Status::miss);
-  EXPECT_EQ(cast_at_rounded_wedge(above, T(0.125)).status, Status::miss);
+  EXPECT_EQ(cast_at_rounded_wedge(above, 0.125).status, Status::miss);
 
-  const Ray<T> onto_slope{Vec3<T>(T(5), T(0.25), T(0.5)), -Vec3<T>::UnitX(), T(100)};
-  const CastResult<T> hit = cast_at_wedge(onto_slope);
+  const Ray<double> onto_slope{Vec3<double>(5.0, 0.25, 0.5), -Vec3<double>::UnitX(), 100.0};
+  const CastResult<double> hit = cast_at_wedge(onto_slope);
   ASSERT_EQ(hit.status, Status::hit);
-  EXPECT_NEAR(hit.t(), T(5.5), 8 * tolerance::epsilon<T>);
-  EXPECT_NEAR(hit.normal.x(), std::sqrt(T(0.5)), 8 * tolerance::epsilon<T>);
+  EXPECT_NEAR(hit.t(), 5.5, 8 * tolerance::epsilon<double>);
+  EXPECT_NEAR(hit.normal.x(), std::sqrt(0.5), 8 * tolerance::epsilon<double>);
 
-  const CastResult<T> rounded = cast_at_rounded_wedge(onto_slope, T(0.125));
+  const CastResult<double> rounded = cast_at_rounded_wedge(onto_slope, 0.125);
   ASSERT_EQ(rounded.status, Status::hit);
-  EXPECT_NEAR(rounded.t(), T(5.5) - T(0.125) * std::sqrt(T(2)), 16 * tolerance::epsilon<T>);
+  EXPECT_NEAR(rounded.t(), 5.5 - 0.125 * std::sqrt(2.0), 16 * tolerance::epsilon<double>);
 }
 
-TYPED_TEST(Declarations, only_what_a_header_declares_is_known) {
-  using T = TypeParam;
-  EXPECT_FALSE(declared_by<Wedge<T>>.slabs);
-  EXPECT_FALSE((Facets<T, Wedge<T>>::some));
+TEST(Declarations, only_what_a_header_declares_is_known) {
+  EXPECT_FALSE(declared_by<Wedge>.slabs);
+  EXPECT_FALSE((Facets<double, Wedge>::some));
   EXPECT_FALSE(declared_by<OtherDeclaration>.slabs);
-  EXPECT_TRUE(declared_by<Box<T>>.slabs);
-  EXPECT_TRUE(declared_by<SaidBox<T>>.slabs);
-  EXPECT_TRUE(declared_by<Hull<T>>.facets && declared_by<Hull<T>>.support_where);
-  EXPECT_TRUE(declared_by<Superellipsoid<T>>.gauge);
-  EXPECT_FALSE(declared_by<Shape<T>>.slabs);  // the list of all shapes is none of them
+  EXPECT_TRUE(declared_by<Box>.slabs);
+  EXPECT_TRUE(declared_by<SaidBox>.slabs);
+  EXPECT_TRUE(declared_by<Hull>.facets && declared_by<Hull>.support_where);
+  EXPECT_TRUE(declared_by<Superellipsoid>.gauge);
+  EXPECT_FALSE(declared_by<Shape>.slabs);  // the list of all shapes is none of them
 }
 
 }  // namespace

@@ -61,9 +61,8 @@ TEST(PairMemory, garbage_in_it_changes_no_promise) {
 TEST(PairMemory, corners_of_one_plane_in_it_are_not_taken_for_an_overlap) {
   // Four corners of two boxes' faces, in one plane with the origin: rounding alone decides if that
   // is inside of their tetrahedron.
-  const Body a(Shape<double>(Box<double>{{1, 1, 1}}), {}),
-      b(Shape<double>(Box<double>{{1, 1, 1}}),
-        {Mat3<double>::Identity(), Vec3<double>(5, 0.3, 0.1)});
+  const Body a(Shape(Box{{1, 1, 1}}), {}),
+      b(Shape(Box{{1, 1, 1}}), {Mat3<double>::Identity(), Vec3<double>(5, 0.3, 0.1)});
   RandomShapes random(5);
   for (int k = 0; k < 4096; ++k) {
     PairMemory memory;
@@ -153,18 +152,18 @@ TEST(PairMemory, has_an_axis_if_that_is_of_unit_length_but_for_single_precision)
 }
 
 TEST(PairMemory, cores_have_so_many_features) {
-  const auto count = [](const Shape<double>& shape) {
+  const auto count = [](const Shape& shape) {
     const ContactShape ready(shape);
     int found = 0;
     for (int feature = -20; feature < 20; ++feature)
       found += is_feature_of(ready.core(), feature) ? 1 : 0;
     return found;
   };
-  EXPECT_EQ(count(Sphere<double>{1}), 1);
-  EXPECT_EQ(count(Ellipsoid<double>{{1, 2, 3}}), 1);
-  EXPECT_EQ(count(Capsule<double>{1, 1}), 2);
-  EXPECT_EQ(count(Cylinder<double>{1, 1}), 2);
-  EXPECT_EQ(count(Box<double>{{1, 1, 1}}), 8);
+  EXPECT_EQ(count(Sphere{1}), 1);
+  EXPECT_EQ(count(Ellipsoid{{1, 2, 3}}), 1);
+  EXPECT_EQ(count(Capsule{1, 1}), 2);
+  EXPECT_EQ(count(Cylinder{1, 1}), 2);
+  EXPECT_EQ(count(Box{{1, 1, 1}}), 8);
 }
 
 }  // namespace

@@ -17,29 +17,27 @@ namespace minkray::testing {
 inline constexpr int kinds_of_derived_bodies = kinds_of_bodies + 6;
 
 /// Those of random_shape(), and what is made of several shapes or known by its support only.
-inline Shape<double> derived_shape(int kind, double s, RandomShapes& random) {
+inline Shape derived_shape(int kind, double s, RandomShapes& random) {
   if (kind < kinds_of_bodies) return random_shape(kind, s, random);
-  const auto part = [&](int of, double size) {
-    return Nested<double>(random_shape(of, size, random));
-  };
+  const auto part = [&](int of, double size) { return Nested(random_shape(of, size, random)); };
   const auto moved = [&](int of) {
     const Affine<double> pose{random.turn(), 0.5 * s * random.direction()};
-    return Nested<double>(Shape<double>(Transform<double>{part(of, 0.6 * s), pose}));
+    return Nested(Shape(Transform{part(of, 0.6 * s), pose}));
   };
   switch (kind - kinds_of_bodies) {
     case 0:
-      return MinkowskiSum<double>{{part(5, 0.6 * s), part(4, 0.6 * s)}};
+      return MinkowskiSum{{part(5, 0.6 * s), part(4, 0.6 * s)}};
     case 1:
-      return MinkowskiSum<double>{{moved(7), moved(8)}};
+      return MinkowskiSum{{moved(7), moved(8)}};
     case 2:
-      return Rounded<double>{s * random.in(0.05, 0.3), part(11, s)};
+      return Rounded{s * random.in(0.05, 0.3), part(11, s)};
     case 3:
-      return HullOf<double>{{moved(3), moved(4), moved(0)}};
+      return HullOf{{moved(3), moved(4), moved(0)}};
     case 4:
-      return Superellipsoid<double>{
-          {s * random.in(0.2, 1), s * random.in(0.2, 1), s * random.in(0.2, 1)}, random.in(1.5, 4)};
+      return Superellipsoid{{s * random.in(0.2, 1), s * random.in(0.2, 1), s * random.in(0.2, 1)},
+                            random.in(1.5, 4)};
     default:
-      return CutCylinder<double>{s * random.in(0.2, 0.6), {-s, s}, {0.5, 0.2}, {0.3, -0.4}};
+      return CutCylinder{s * random.in(0.2, 0.6), {-s, s}, {0.5, 0.2}, {0.3, -0.4}};
   }
 }
 

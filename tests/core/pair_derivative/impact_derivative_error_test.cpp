@@ -20,20 +20,16 @@ struct JudgedPair {
 
 /// A capsule and another one, a ball at a box, or a ball at a rounded box.
 JudgedPair moving_pair(int kind, RandomNumbers& random) {
-  const Capsule<double> one{random.in(0.1, 0.5), random.in(0.1, 1)};
-  const Sphere<double> ball{random.in(0.1, 0.5)};
-  const Box<double> box{{random.in(0.1, 1), random.in(0.1, 1), random.in(0.1, 1)}};
-  MovingPair moving{
-      ContactShape(Shape<double>(one)), ContactShape(Shape<double>(one)), {}, {}, 0, {}};
+  const Capsule one{random.in(0.1, 0.5), random.in(0.1, 1)};
+  const Sphere ball{random.in(0.1, 0.5)};
+  const Box box{{random.in(0.1, 1), random.in(0.1, 1), random.in(0.1, 1)}};
+  MovingPair moving{ContactShape(Shape(one)), ContactShape(Shape(one)), {}, {}, 0, {}};
   move_at_random(moving, random);
-  JudgedPair pair{ContactShape(Shape<double>(one)),
-                  ContactShape(Shape<double>(ball)),
-                  moving.of_a,
-                  moving.of_b,
-                  {}};
+  JudgedPair pair{
+      ContactShape(Shape(one)), ContactShape(Shape(ball)), moving.of_a, moving.of_b, {}};
   if (kind == 0) {
-    const Capsule<double> other{random.in(0.1, 0.5), random.in(0.1, 1)};
-    pair.b = ContactShape(Shape<double>(other));
+    const Capsule other{random.in(0.1, 0.5), random.in(0.1, 1)};
+    pair.b = ContactShape(Shape(other));
     pair.gap = [one, other](const Affine<Long>& a, const Affine<Long>& b) {
       const auto ends = [](const Affine<Long>& pose, double half) {
         const Vec3<Long> z(0, 0, half);
@@ -45,8 +41,7 @@ JudgedPair moving_pair(int kind, RandomNumbers& random) {
     return pair;
   }
   const double radius = kind == 1 ? 0 : 0.125;
-  pair.a = ContactShape(radius > 0 ? Shape<double>(Rounded<double>{radius, Shape<double>(box)})
-                                   : Shape<double>(box));
+  pair.a = ContactShape(radius > 0 ? Shape(Rounded{radius, Shape(box)}) : Shape(box));
   pair.gap = [box, radius, ball](const Affine<Long>& a, const Affine<Long>& b) {
     const Vec3<Long> at = a.linear.transpose() * (b.translation - a.translation);
     const Vec3<Long> half = box.half_extents.cast<Long>();
@@ -160,8 +155,7 @@ TEST_P(ImpactDerivativeErrors, have_bounds) {
 INSTANTIATE_TEST_SUITE_P(Kinds, ImpactDerivativeErrors, ::testing::Values(0, 1, 2));
 
 TEST(ImpactDerivativeError, is_what_is_known_without_a_contact) {
-  const ContactShape ball{Shape<double>(Sphere<double>{1})},
-      box{Shape<double>(Box<double>{{1, 1, 1}})};
+  const ContactShape ball{Shape(Sphere{1})}, box{Shape(Box{{1, 1, 1}})};
   const auto error_at = [](const ContactShape& a, const ContactShape& b, double x, double speed) {
     RigidMotion of_a, of_b;
     of_b.pose.translation.x() = x;

@@ -20,30 +20,30 @@ inline Vec3<double> grid_point(RandomShapes& random) {
 
 inline constexpr int kinds_of_aligned_bodies = 9;
 
-inline Shape<double> aligned_shape(int kind, RandomShapes& random) {
+inline Shape aligned_shape(int kind, RandomShapes& random) {
   const auto size = [&] { return unit_length * std::floor(random.in(1, 5)); };
   const double x = size(), y = size(), z = size(), radius = size();
   switch (kind % kinds_of_aligned_bodies) {
     case 0:
-      return Box<double>{{x, y, z}};
+      return Box{{x, y, z}};
     case 1:
-      return Cylinder<double>{x, y};
+      return Cylinder{x, y};
     case 2:
-      return Cone<double>{x, y};
+      return Cone{x, y};
     case 3:
-      return Sphere<double>{x};
+      return Sphere{x};
     case 4:
-      return Capsule<double>{x, y};
+      return Capsule{x, y};
     case 5:
-      return Ellipsoid<double>{{x, y, z}};
+      return Ellipsoid{{x, y, z}};
     case 6:
-      return Frustum<double>{{x, y}, z};
+      return Frustum{{x, y}, z};
     case 7:
-      return Rounded<double>{radius, Nested<double>(Shape<double>(Box<double>{{x, y, z}}))};
+      return Rounded{radius, Nested(Shape(Box{{x, y, z}}))};
     default: {
       std::vector<Vec3<double>> points;
       for (int i = 0; i < 10; ++i) points.push_back(grid_point(random));
-      return Hull<double>{PointCloud<double>(points)};
+      return Hull{PointCloud(points)};
     }
   }
 }

@@ -20,7 +20,7 @@ TEST(AlignedPairs, are_settled_but_for_corners_on_axes_and_those_say_so) {
   RandomShapes random(5), judge(6);
   int exhausted = 0, overlapping = 0, all = 0;
   for (int k = 0; k < 6000; ++k, ++all) {
-    const Shape<double> one = aligned_shape(k, random), other = aligned_shape(k / 9, random);
+    const Shape one = aligned_shape(k, random), other = aligned_shape(k / 9, random);
     const Mat3<double> turn_a = right_angle(random), turn_b = right_angle(random);
     const Body a(one, {turn_a, Vec3<double>::Zero()}), b(other, {turn_b, grid_point(random)});
     SignedDistanceOptions options;

@@ -19,7 +19,7 @@ using P = Vec3<double>;
 
 /// A shape, a point of its surface and a direction in which the point is the furthest.
 struct Feature {
-  Shape<double> shape;
+  Shape shape;
   P point, outwards;
 };
 
@@ -38,31 +38,30 @@ Feature feature(int kind, RandomShapes& random) {
   const P beside_box = one_of(P::UnitX(), random.in(0, 1) < 0.5 ? P::UnitY() : up);
   switch (kind) {
     case 0:
-      return {Box<double>{{r, h, 0.5}}, {r, h, 0.5}, beside_box};
+      return {Box{{r, h, 0.5}}, {r, h, 0.5}, beside_box};
     case 1:
-      return {Cylinder<double>{r, h}, r * around + h * up, one_of(around, up)};
+      return {Cylinder{r, h}, r * around + h * up, one_of(around, up)};
     case 2: {
       const P side = (2 * h * around + r * up).normalized();
-      return {Cone<double>{r, h}, r * around - h * up, one_of(side, -up)};
+      return {Cone{r, h}, r * around - h * up, one_of(side, -up)};
     }
     case 3: {
       const P side = (2 * h * around + r * up).normalized();
-      return {Cone<double>{r, h}, h * up, one_of(side, up)};
+      return {Cone{r, h}, h * up, one_of(side, up)};
     }
     case 4:
-      return {Capsule<double>{r, h}, h * up + r * around, around};
+      return {Capsule{r, h}, h * up + r * around, around};
     case 5:
-      return {Triangle<double>{{P(0, 0, 0), P(r, 0, 0), P(0.3 * r, h, 0)}},
+      return {Triangle{{P(0, 0, 0), P(r, 0, 0), P(0.3 * r, h, 0)}},
               random.in(0, 1) < 0.5 ? P(0, 0, 0) : P(random.in(0, 1) * r, 0, 0),
               one_of(up, -P::UnitY())};
     case 6:
-      return {Disk<double>{r}, r * around, one_of(around, up)};
+      return {Disk{r}, r * around, one_of(around, up)};
     case 7:
-      return {Rounded<double>{0.1, Nested<double>(Shape<double>(Box<double>{{r, h, 0.5}}))},
-              P(r, h, 0.5) + 0.1 * beside_box, beside_box};
+      return {Rounded{0.1, Nested(Shape(Box{{r, h, 0.5}}))}, P(r, h, 0.5) + 0.1 * beside_box,
+              beside_box};
     default:
-      return {Segment<double>{{P(0, 0, 0), h * up}}, random.in(0, 2) < 1 ? P(h * up) : P(0, 0, 0),
-              around};
+      return {Segment{{P(0, 0, 0), h * up}}, random.in(0, 2) < 1 ? P(h * up) : P(0, 0, 0), around};
   }
 }
 constexpr int kinds_of_features = 9;
@@ -84,20 +83,20 @@ Body beside(int kind, const P& at, const P& normal, double away, const Mat3<doub
   const double side = random.in(0, 1) < 0.5 ? 1 : -1, r = random.in(0.1, 1);
   switch (kind) {
     case 0:
-      return {Shape<double>(Point<double>{P::Zero()}), {Mat3<double>::Identity(), at}};
+      return {Shape(Point{P::Zero()}), {Mat3<double>::Identity(), at}};
     case 1:
-      return {Shape<double>(Sphere<double>{0.25 * away}), {Mat3<double>::Identity(), at}};
+      return {Shape(Sphere{0.25 * away}), {Mat3<double>::Identity(), at}};
     case 2: {
       const double angle = random.in(0, 7);
       const P across =
           random.in(0, 1) < 0.2 ? P(turn.col(2)) : P(up * P(std::cos(angle), std::sin(angle), 0));
-      return {Shape<double>(Segment<double>{{P::Zero(), random.in(0.1, 1) * across}}),
+      return {Shape(Segment{{P::Zero(), random.in(0.1, 1) * across}}),
               {Mat3<double>::Identity(), at}};
     }
     case 3:
-      return {Shape<double>(Box<double>{{r, 0.3, 0.2}}), {up, at + up * P(side * r, 0.3, 0.2)}};
+      return {Shape(Box{{r, 0.3, 0.2}}), {up, at + up * P(side * r, 0.3, 0.2)}};
     default:
-      return {Shape<double>(Cylinder<double>{r, 0.2}), {up, at + up * P(side * r, 0, 0.2)}};
+      return {Shape(Cylinder{r, 0.2}), {up, at + up * P(side * r, 0, 0.2)}};
   }
 }
 constexpr int kinds_beside = 5;
@@ -133,9 +132,8 @@ TEST(BesideFeatures, bodies_that_turn_their_axes_to_each_other_have_points_that_
                           P(1, 0, 1).normalized()};
   const auto one_direction = [&] { return directions[static_cast<int>(random.in(0, 7))]; };
   for (int k = 0; k < 20 * kinds_of_bodies * kinds_of_bodies; ++k) {
-    const Shape<double> of_a = testing::random_shape(k % kinds_of_bodies, 1, random),
-                        of_b =
-                            testing::random_shape(k / kinds_of_bodies % kinds_of_bodies, 1, random);
+    const Shape of_a = testing::random_shape(k % kinds_of_bodies, 1, random),
+                of_b = testing::random_shape(k / kinds_of_bodies % kinds_of_bodies, 1, random);
     const P to_b = one_direction(), to_a = one_direction();
     const Mat3<double> turn = random.turn();
     const P normal = turn * to_b;

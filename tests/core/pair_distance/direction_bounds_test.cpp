@@ -13,7 +13,7 @@ namespace {
 
 /// Both are as they are defined, the second is moved to a place.
 struct KnownPair {
-  Shape<double> a, b;
+  Shape a, b;
   Vec3<double> place;
   double distance;  ///< less the depth
 
@@ -26,7 +26,7 @@ struct KnownPair {
 };
 
 std::vector<KnownPair> known_pairs() {
-  const Shape<double> cube = Box<double>{{1, 1, 1}}, cylinder = Cylinder<double>{1, 1};
+  const Shape cube = Box{{1, 1, 1}}, cylinder = Cylinder{1, 1};
   return {
       {cube, cube, {1.5, 0.25, 0.125}, -0.5},        {cube, cube, {3, 0.25, 0.125}, 1},
       {cube, cube, {1.99, 0.25, 0.125}, -0.01},      {cube, cube, {2.01, 0.25, 0.125}, 0.01},

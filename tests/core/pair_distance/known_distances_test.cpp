@@ -32,20 +32,20 @@ TEST(SignedDistance, spheres_capsules_and_boxes_have_closed_forms) {
                        r = size * random.direction() * random.in(0, 2),
                        s = size * random.direction();
     const double r1 = size * random.in(0.01, 1), r2 = size * random.in(0.01, 1);
-    const auto round = [](double radius, const Shape<double>& core) {
-      return ContactShape(Rounded<double>{radius, Nested<double>(core)});
+    const auto round = [](double radius, const Shape& core) {
+      return ContactShape(Rounded{radius, Nested(core)});
     };
     const SignedDistance capsules =
-        signed_distance(round(r1, Segment<double>{{p, q}}), round(r2, Segment<double>{{r, s}}));
+        signed_distance(round(r1, Segment{{p, q}}), round(r2, Segment{{r, s}}));
     const double exact = distance_of_segments({p, q}, {r, s}) - r1 - r2;
     ASSERT_NEAR(capsules.value, exact, 1e-14 * 4 * size) << k;
     ASSERT_LE(capsules.lower, exact);
     ASSERT_GE(capsules.upper, exact);
 
-    const SignedDistance balls = signed_distance(
-        ContactShape(Transform<double>{Nested<double>(Shape<double>(Sphere<double>{r1})),
-                                       Affine<double>{Mat3<double>::Identity(), p}}),
-        round(r2, Point<double>{q}));
+    const SignedDistance balls =
+        signed_distance(ContactShape(Transform{Nested(Shape(Sphere{r1})),
+                                               Affine<double>{Mat3<double>::Identity(), p}}),
+                        round(r2, Point{q}));
     ASSERT_NEAR(balls.value, double((q.cast<Long>() - p.cast<Long>()).norm() - Long(r1) - Long(r2)),
                 1e-14 * 4 * size);
 
@@ -53,8 +53,7 @@ TEST(SignedDistance, spheres_capsules_and_boxes_have_closed_forms) {
     const Vec3<Long> beyond = r.cast<Long>().cwiseAbs() - h.cast<Long>();
     const Long deepest = std::min(beyond.maxCoeff(), Long(0));
     const Vec3<Long> aside = beyond.cwiseMax(Vec3<Long>::Zero());
-    const SignedDistance box =
-        signed_distance(ContactShape(Box<double>{h}), round(r1, Point<double>{r}));
+    const SignedDistance box = signed_distance(ContactShape(Box{h}), round(r1, Point{r}));
     ASSERT_NEAR(box.value, double(aside.norm() + deepest - Long(r1)), 1e-14 * 4 * size) << k;
   }
 }
@@ -73,7 +72,7 @@ TEST(SignedDistance, hulls_are_as_deep_in_each_other_as_the_nearest_facet_of_the
     ++overlapping;
     const auto corners = [](const Body& body) {
       std::vector<Vec3<double>> points;
-      if (const auto* hull = std::get_if<Hull<double>>(&body.shape.kind)) {
+      if (const auto* hull = std::get_if<Hull>(&body.shape.kind)) {
         for (const Vec3<double>& p : hull->points.points()) points.push_back(body.pose(p));
       } else {
         for (int i = 0; i < 8; ++i)
@@ -85,7 +84,7 @@ TEST(SignedDistance, hulls_are_as_deep_in_each_other_as_the_nearest_facet_of_the
     std::vector<Vec3<double>> differences;
     for (const Vec3<double>& p : corners(a))
       for (const Vec3<double>& q : corners(b)) differences.push_back(q - p);
-    const PointCloud<double> difference(differences);
+    const PointCloud difference(differences);
     ASSERT_NE(difference.facets(), nullptr);
     double depth = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < difference.facets()->size(); ++i) {
@@ -102,16 +101,16 @@ TEST(SignedDistance, hulls_are_as_deep_in_each_other_as_the_nearest_facet_of_the
 
 TEST(SignedDistance, shapes_in_the_middle_of_each_other_are_as_deep_as_their_thinnest_sum) {
   // Every direction is as good as any other here, or a circle of them is.
-  const ContactShape ball(Sphere<double>{2}), inner(Sphere<double>{1});
+  const ContactShape ball(Sphere{2}), inner(Sphere{1});
   EXPECT_NEAR(signed_distance(ball, inner).value, -3, 1e-14);
-  const ContactShape rod(Cylinder<double>{1, 5}), thin(Cylinder<double>{0.25, 5});
+  const ContactShape rod(Cylinder{1, 5}), thin(Cylinder{0.25, 5});
   SignedDistanceOptions coarse;
   coarse.tolerance = 1e-5;
   const SignedDistance coaxial = signed_distance(rod, {}, thin, {}, coarse);
   EXPECT_NEAR(coaxial.value, -1.25, 1e-4);
   EXPECT_LE(coaxial.lower, -1.25);
   EXPECT_GE(coaxial.upper, -1.25);
-  const ContactShape cube(Box<double>{{1, 1, 1}});
+  const ContactShape cube(Box{{1, 1, 1}});
   EXPECT_NEAR(signed_distance(cube, cube).value, -2, 1e-14);
 }
 
@@ -119,10 +118,10 @@ TEST(SignedDistance, of_what_has_a_part_without_length_is_known) {
   // A capsule that is a ball, or whose length has no square, in one that lies along x as it does.
   const Mat3<double> along_x =
       Eigen::AngleAxis<double>(std::acos(-1.0) / 2, Vec3<double>::UnitY()).toRotationMatrix();
-  const ContactShape rod(Capsule<double>{0.5, 2});
+  const ContactShape rod(Capsule{0.5, 2});
   for (const double half_height : {0.0, 1e-200})
     for (const double x : {0.0, 0.75}) {
-      const ContactShape ball(Capsule<double>{0.25, half_height});
+      const ContactShape ball(Capsule{0.25, half_height});
       const SignedDistance inside =
           signed_distance(rod, {along_x, {0, 0, 0}}, ball, {along_x, {x, 0, 0}});
       EXPECT_NEAR(inside.lower, -0.75, 1e-13) << half_height << ", " << x;
@@ -132,8 +131,8 @@ TEST(SignedDistance, of_what_has_a_part_without_length_is_known) {
   for (const std::array<double, 2>& radii : {std::array{0.5, 1.0}, std::array{1.0, 0.5}})
     for (const double rho : {0.25, 0.75, 1.5})
       for (const double z : {-1.0, 1.0}) {
-        const SignedDistance aside = signed_distance(ContactShape(Frustum<double>{radii, 0}),
-                                                     ContactShape(Point<double>{{rho, 0, z}}));
+        const SignedDistance aside =
+            signed_distance(ContactShape(Frustum{radii, 0}), ContactShape(Point{{rho, 0, z}}));
         EXPECT_NEAR(aside.value, std::hypot(std::max(rho - 1, 0.0), 1), 1e-14) << rho << ", " << z;
         EXPECT_LE(aside.upper - aside.lower, 1e-13);
       }
@@ -142,12 +141,11 @@ TEST(SignedDistance, of_what_has_a_part_without_length_is_known) {
 /// Products of lengths that are all 0 are numbers, too: a box that is a point was undecided in its
 /// own place.
 TEST(SignedDistance, of_bodies_that_are_points_is_that_of_points) {
-  const std::vector<Shape<double>> points{Point<double>{{0, 0, 0}}, Sphere<double>{0},
-                                          Box<double>{{0, 0, 0}},   Cylinder<double>{0, 0},
-                                          Capsule<double>{0, 0},    Cone<double>{0, 0},
-                                          Disk<double>{0},          Ellipsoid<double>{{0, 0, 0}}};
-  for (const Shape<double>& a : points)
-    for (const Shape<double>& b : points)
+  const std::vector<Shape> points{Point{{0, 0, 0}}, Sphere{0},           Box{{0, 0, 0}},
+                                  Cylinder{0, 0},   Capsule{0, 0},       Cone{0, 0},
+                                  Disk{0},          Ellipsoid{{0, 0, 0}}};
+  for (const Shape& a : points)
+    for (const Shape& b : points)
       for (const double away : {0.0, 0x1p-159, 1.0}) {
         const SignedDistance found = signed_distance(ContactShape(a), {}, ContactShape(b),
                                                      {Mat3<double>::Identity(), {0, away, 0}});
@@ -165,9 +163,8 @@ TEST(SignedDistance, of_bodies_that_are_points_is_that_of_points) {
 TEST(SignedDistance, is_known_up_to_the_largest_length_and_undecided_beyond) {
   const auto of_size = [](double unit) {
     const double half = 0.25 * unit;
-    return std::vector<Shape<double>>{Box<double>{{half, half, half}}, Capsule<double>{half, half},
-                                      Cylinder<double>{half, half},
-                                      Ellipsoid<double>{{half, half / 2, half}}};
+    return std::vector<Shape>{Box{{half, half, half}}, Capsule{half, half}, Cylinder{half, half},
+                              Ellipsoid{{half, half / 2, half}}};
   };
   // Sizes, of both together, are 0.87 to 1 of the unit; distances have a tolerance of 1e-10 of
   // them.
@@ -189,7 +186,7 @@ TEST(SignedDistance, is_known_up_to_the_largest_length_and_undecided_beyond) {
 
 /// The radius counts as well, where the core itself is small.
 TEST(SignedDistance, of_a_short_capsule_of_more_than_the_largest_length_is_undecided) {
-  const ContactShape capsule(Capsule<double>{0x1p161, 1}), ball(Sphere<double>{0x1p161});
+  const ContactShape capsule(Capsule{0x1p161, 1}), ball(Sphere{0x1p161});
   const Affine<double> beside{Mat3<double>::Identity(), {0x1p163, 0, 0}};
   EXPECT_EQ(signed_distance(capsule, {}, capsule, beside).status, SignedStatus::undecided);
   EXPECT_EQ(signed_distance(ball, {}, ball, beside).status, SignedStatus::separated);

@@ -9,7 +9,7 @@
 namespace minkray::testing {
 namespace {
 
-const Shape<double> plate(Box<double>{{5, 5, 0.5}});
+const Shape plate(Box{{5, 5, 0.5}});
 
 ContactManifold manifold_of(const Body& a, const Body& b) {
   return contact_manifold(a.ready, a.pose, b.ready, b.pose,
@@ -39,8 +39,8 @@ void expect_of_shapes(const Body& a, const Body& b, const ContactManifold& found
 TEST(ContactManifold, of_a_box_that_rests_on_a_plate_are_its_corners) {
   RandomShapes random(1);
   for (const double deep : {-1e-3, 0.0, 1e-3}) {
-    const Body a(plate, at(0, 0, 0)), b(Shape<double>(Box<double>{{1, 0.5, 0.25}}),
-                                        turned({0, 0, 1}, 0.3, {0.2, 0.1, 0.75 - deep}));
+    const Body a(plate, at(0, 0, 0)),
+        b(Shape(Box{{1, 0.5, 0.25}}), turned({0, 0, 1}, 0.3, {0.2, 0.1, 0.75 - deep}));
     const ContactManifold found = manifold_of(a, b);
     ASSERT_EQ(found.count, 4) << deep;
     expect_of_shapes(a, b, found, random);
@@ -58,11 +58,11 @@ TEST(ContactManifold, of_a_box_that_rests_on_a_plate_are_its_corners) {
 }
 
 TEST(ContactManifold, of_other_things_has_as_many_points_as_touch) {
-  const auto count = [](const Shape<double>& b, const Affine<double>& pose) {
+  const auto count = [](const Shape& b, const Affine<double>& pose) {
     return manifold_of(Body(plate, at(0, 0, 0)), Body(b, pose)).count;
   };
-  const Shape<double> cylinder(Cylinder<double>{0.5, 1}), ball(Sphere<double>{1}),
-      capsule(Capsule<double>{0.25, 1}), box(Box<double>{{1, 0.5, 0.25}});
+  const Shape cylinder(Cylinder{0.5, 1}), ball(Sphere{1}), capsule(Capsule{0.25, 1}),
+      box(Box{{1, 0.5, 0.25}});
   const Vec3<double> x = Vec3<double>::UnitX();
   EXPECT_EQ(count(cylinder, at(0, 0, 1.5)), 4);
   EXPECT_EQ(count(cylinder, turned(x, 1.5707963267948966, {0, 0, 1})), 2);
@@ -75,7 +75,7 @@ TEST(ContactManifold, of_other_things_has_as_many_points_as_touch) {
 
 TEST(ContactManifold, of_a_box_that_leans_over_an_edge_is_of_its_face_there_too) {
   const Body below(plate, at(0, 0, 0)),
-      box(Shape<double>(Box<double>{{1, 0.5, 0.25}}), turned({0, 1, 0}, -0.01, {5, 0, 0.76}));
+      box(Shape(Box{{1, 0.5, 0.25}}), turned({0, 1, 0}, -0.01, {5, 0, 0.76}));
   for (const bool is_box_first : {false, true}) {
     const ContactManifold found = is_box_first ? manifold_of(box, below) : manifold_of(below, box);
     ASSERT_EQ(found.count, 4);
@@ -110,7 +110,7 @@ TEST(ContactManifold, of_any_two_shapes_is_of_both) {
 }
 
 TEST(ContactManifold, of_an_unknown_distance_has_no_points) {
-  const Shape<double> ball = Sphere<double>{1};
+  const Shape ball = Sphere{1};
   EXPECT_EQ(manifold_of(Body(ball, at(0, 0, 0)), Body(ball, at(1e200, 0, 0))).count, 0);
 }
 

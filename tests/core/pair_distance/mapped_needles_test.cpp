@@ -121,12 +121,12 @@ TEST(MappedNeedles, are_as_far_from_balls_as_their_faces_edges_and_corners) {
     const Mat3<double> first = random.turn(), second = k % 4 == 0 && k % 8 == 0
                                                            ? Mat3<double>(Mat3<double>::Identity())
                                                            : random.turn();
-    const auto under = [](const Mat3<double>& linear, const Shape<double>& shape) {
-      return Shape<double>(Transform<double>{shape, Affine<double>{linear, Vec3<double>::Zero()}});
+    const auto under = [](const Mat3<double>& linear, const Shape& shape) {
+      return Shape(Transform{shape, Affine<double>{linear, Vec3<double>::Zero()}});
     };
     const Mat3<double> scales = scale.asDiagonal();
-    const Shape<double> box = Box<double>{of_box};
-    const Shape<double> needle = under(first, under(scales, under(second, box)));
+    const Shape box = Box{of_box};
+    const Shape needle = under(first, under(scales, under(second, box)));
     QuadMat sides{};
     for (std::size_t j = 0; j < 3; ++j) sides[j][j] = of_box[static_cast<int>(j)];
     sides = times(first, times(scales, times(second, sides)));
@@ -143,8 +143,8 @@ TEST(MappedNeedles, are_as_far_from_balls_as_their_faces_edges_and_corners) {
     if (!(radius > 0)) continue;
     const Quad truth = gap - Quad(radius);
     ++needles;
-    const SignedDistance found = signed_distance(
-        ready, {}, ContactShape(Shape<double>(Sphere<double>{radius})), {random.turn(), middle});
+    const SignedDistance found =
+        signed_distance(ready, {}, ContactShape(Shape(Sphere{radius})), {random.turn(), middle});
     ASSERT_LE(found.lower, truth) << k << " " << thin << " " << name_of(found.status);
     ASSERT_GE(found.upper, truth) << k << " " << thin << " " << name_of(found.status);
     if (found.status == SignedStatus::separated) {

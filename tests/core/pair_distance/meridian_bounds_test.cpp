@@ -9,8 +9,8 @@
 namespace minkray {
 namespace {
 
-std::optional<CoreDistance> bounded(const Shape<double>& a, const Shape<double>& b,
-                                    const Vec3<double>& place, double tilt = 0) {
+std::optional<CoreDistance> bounded(const Shape& a, const Shape& b, const Vec3<double>& place,
+                                    double tilt = 0) {
   const ContactShape ready_a{a}, ready_b{b};
   const Affine<double> pose_a,
       pose_b{Eigen::AngleAxis<double>(tilt, Vec3<double>::UnitX()).toRotationMatrix(), place};
@@ -18,10 +18,9 @@ std::optional<CoreDistance> bounded(const Shape<double>& a, const Shape<double>&
 }
 
 TEST(MeridianBounds, are_around_distances_and_depths_and_as_near_as_asked) {
-  const Shape<double> cylinder = Cylinder<double>{1, 1}, point = Point<double>{{0, 0, 0}},
-                      ellipsoid = Ellipsoid<double>{{1, 1, 2}};
+  const Shape cylinder = Cylinder{1, 1}, point = Point{{0, 0, 0}}, ellipsoid = Ellipsoid{{1, 1, 2}};
   struct {
-    const Shape<double>&a, &b;
+    const Shape &a, &b;
     Vec3<double> place;
     double distance;
   } const known[] = {{cylinder, cylinder, {0, 0, 1.5}, -0.5},
@@ -47,7 +46,7 @@ TEST(MeridianBounds, are_around_distances_and_depths_and_as_near_as_asked) {
 }
 
 TEST(MeridianBounds, of_axes_that_lean_by_a_millionth_are_apart_by_what_that_moves) {
-  const Shape<double> cylinder = Cylinder<double>{1, 1};
+  const Shape cylinder = Cylinder{1, 1};
   for (const double tilt : {1e-13, 3e-9, -3e-7, 3e-6, -0.1}) {
     const std::optional<CoreDistance> found = bounded(cylinder, cylinder, {0, 0, 3}, tilt);
     const double leans = std::abs(tilt);
@@ -63,8 +62,8 @@ TEST(MeridianBounds, of_axes_that_lean_by_a_millionth_are_apart_by_what_that_mov
 }
 
 TEST(MeridianBounds, are_of_bodies_of_revolution_only) {
-  EXPECT_FALSE(bounded(Cylinder<double>{1, 1}, Box<double>{{1, 1, 1}}, {0, 0, 3}));
-  EXPECT_FALSE(bounded(Ellipsoid<double>{{1, 2, 3}}, Cylinder<double>{1, 1}, {0, 0, 3}));
+  EXPECT_FALSE(bounded(Cylinder{1, 1}, Box{{1, 1, 1}}, {0, 0, 3}));
+  EXPECT_FALSE(bounded(Ellipsoid{{1, 2, 3}}, Cylinder{1, 1}, {0, 0, 3}));
 }
 
 }  // namespace

@@ -14,14 +14,14 @@ using testing::random_shape;
 using testing::RandomShapes;
 
 /// The z axis is that of revolution, or another, of a ball that is stretched across it.
-Shape<double> of_revolution(int kind, RandomShapes& random) {
+Shape of_revolution(int kind, RandomShapes& random) {
   constexpr int kinds[] = {0, 3, 6, 7, 8, 9, 10, 14, 15};
   constexpr int count = std::size(kinds);
   if (kind % (count + 2) < count) return random_shape(kinds[kind % (count + 2)], 1, random);
   const double across = random.in(0.2, 1), along = random.in(0.2, 1);
-  if (kind % (count + 2) == count) return Ellipsoid<double>{{across, across, along}};
-  return Transform<double>{
-      Nested<double>(Shape<double>(Sphere<double>{1})),
+  if (kind % (count + 2) == count) return Ellipsoid{{across, across, along}};
+  return Transform{
+      Nested(Shape(Sphere{1})),
       Affine<double>{Vec3<double>(across, across, along).asDiagonal(), Vec3<double>::Zero()}};
 }
 
@@ -52,8 +52,7 @@ TEST(ParallelAxes, bodies_of_revolution_take_no_more_support_points_than_others)
 }
 
 TEST(ParallelAxes, a_peg_in_its_hole_leaves_by_the_shorter_way) {
-  const ContactShape peg(Shape<double>(Cylinder<double>{0.25, 2})),
-      block(Shape<double>(Cylinder<double>{1, 3}));
+  const ContactShape peg(Shape(Cylinder{0.25, 2})), block(Shape(Cylinder{1, 3}));
   const SignedDistance aside = signed_distance(block, {}, peg, {});
   EXPECT_NEAR(aside.value, -1.25, 1e-14);
   EXPECT_LE(aside.upper - aside.lower, 1e-9);
@@ -68,8 +67,8 @@ TEST(ParallelAxes, that_are_not_quite_are_within_bounds_as_far_apart_as_that) {
   RandomShapes random(43);
   for (int k = 0; k < 60; ++k) {
     const double tilt = std::pow(10, random.in(-9, -7));
-    const Body a(Cylinder<double>{random.in(0.2, 1), random.in(0.5, 1)}, {}),
-        b(Cone<double>{random.in(0.2, 1), random.in(0.5, 1)},
+    const Body a(Cylinder{random.in(0.2, 1), random.in(0.5, 1)}, {}),
+        b(Cone{random.in(0.2, 1), random.in(0.5, 1)},
           {rotation_matrix(tilt, 0.0, 0.0, 1.0), Vec3<double>::Zero()});
     SignedDistanceOptions options;
     options.max_supports = 2000;

@@ -22,11 +22,11 @@ TEST(ParallelSegments, nearly_so_have_planes_and_points_that_hold) {
       return random.in(0, 1) < 0.3 ? 0.0 : std::pow(10, random.in(-17, -1));
     };
     const bool is_grown = k % 2 == 0;
-    const auto shape = [&](double scale) -> Shape<double> {
+    const auto shape = [&](double scale) -> Shape {
       const Vec3<double> half(0, 0, scale * random.in(0.1, 1));
-      const Shape<double> segment = Segment<double>{{-half, half}};
+      const Shape segment = Segment{{-half, half}};
       if (!is_grown) return segment;
-      return Rounded<double>{random.in(0, 0.5), Nested<double>(segment)};
+      return Rounded{random.in(0, 0.5), Nested(segment)};
     };
     const Body a(shape(k % 7 == 0 ? std::pow(10, random.in(-3, 3)) : 1),
                  {turn, Vec3<double>::Zero()});
@@ -51,8 +51,8 @@ TEST(ParallelSegments, that_cross_in_their_middle_touch_however_little_they_lean
   for (int k = 0; k < 100; ++k) {
     const Affine<double> pose{random.turn(), Vec3<double>::Zero()};
     const Vec3<double> p(0, 0, 1), q(random.in(56, 64) * epsilon, 0, 1);
-    const SignedDistance found = signed_distance(ContactShape(Segment<double>{{-p, p}}), pose,
-                                                 ContactShape(Segment<double>{{-q, q}}), pose);
+    const SignedDistance found =
+        signed_distance(ContactShape(Segment{{-p, p}}), pose, ContactShape(Segment{{-q, q}}), pose);
     EXPECT_EQ(found.status, SignedStatus::touching);
     EXPECT_NEAR(found.value, 0, 16 * epsilon * (p.norm() + q.norm())) << k;
   }
@@ -83,8 +83,8 @@ TEST(ParallelSegments, that_lean_by_little_have_bounds_of_a_few_roundings) {
 /// to both, and others were up to 5e-4 of the sizes nearer than that.
 TEST(ParallelSegments, that_nearly_touch_at_an_end_have_planes_and_points_that_hold) {
   RandomShapes random(15), judge(16);
-  const auto segment = [](double half) -> Shape<double> {
-    return Segment<double>{{Vec3<double>(0, 0, -half), Vec3<double>(0, 0, half)}};
+  const auto segment = [](double half) -> Shape {
+    return Segment{{Vec3<double>(0, 0, -half), Vec3<double>(0, 0, half)}};
   };
   for (int k = 0; k < 4000; ++k) {
     const auto near_end = [&] {
@@ -109,7 +109,7 @@ TEST(ParallelSegments, that_nearly_touch_at_an_end_have_planes_and_points_that_h
 }
 
 TEST(ParallelSegments, capsules_on_one_line_leave_it_sideways) {
-  const ContactShape capsule(Shape<double>(Capsule<double>{0.25, 1}));
+  const ContactShape capsule(Shape(Capsule{0.25, 1}));
   const Mat3<double> turn = rotation_matrix(0.3, -0.2, 0.7, 0.6);
   const Affine<double> one{turn, {0, 0, 0}}, two{turn, turn * Vec3<double>(0, 0, 0.125)};
   const SignedDistance found = signed_distance(capsule, one, capsule, two);

@@ -42,7 +42,7 @@ Long largest_gap(const Points& a, const Points& b) {
 }
 
 struct Polytope {
-  Shape<double> shape;
+  Shape shape;
   std::vector<Vec3<double>> points;
 
   Points at(const Affine<double>& pose) const {
@@ -54,18 +54,18 @@ struct Polytope {
 };
 
 Polytope random_polytope(int kind, RandomShapes& random) {
-  Polytope made{Point<double>(), {}};
+  Polytope made{Point(), {}};
   if (kind == 0) {
     const Vec3<double> half(random.in(0.1, 1), random.in(0.1, 1), random.in(0.1, 1));
     for (int i = 0; i < 8; ++i)
       made.points.emplace_back((i & 1) != 0 ? half.x() : -half.x(),
                                (i & 2) != 0 ? half.y() : -half.y(),
                                (i & 4) != 0 ? half.z() : -half.z());
-    made.shape = Box<double>{half};
+    made.shape = Box{half};
     return made;
   }
   for (int i = 0; i < (kind == 1 ? 4 : 9); ++i) made.points.push_back(random.direction());
-  made.shape = Hull<double>{PointCloud<double>(made.points)};
+  made.shape = Hull{PointCloud(made.points)};
   return made;
 }
 
@@ -122,8 +122,8 @@ TEST(Penetration, of_boxes_that_stand_straight_is_that_of_their_faces) {
 }
 
 TEST(Penetration, one_body_in_the_middle_of_another_leaves_by_the_nearest_face) {
-  const ContactShape cube(Shape<double>(Box<double>{{3, 2, 1}})),
-      ball(Shape<double>(Sphere<double>{0.25})), rod(Shape<double>(Cylinder<double>{0.25, 0.5}));
+  const ContactShape cube(Shape(Box{{3, 2, 1}})), ball(Shape(Sphere{0.25})),
+      rod(Shape(Cylinder{0.25, 0.5}));
   EXPECT_NEAR(signed_distance(cube, {}, cube, {}).value, -2, 1e-13);
   EXPECT_NEAR(signed_distance(cube, {}, ball, {}).value, -1.25, 1e-13);
   EXPECT_NEAR(signed_distance(cube, {}, rod, {}).value, -1.5, 1e-9);
@@ -138,7 +138,7 @@ TEST(Penetration, one_body_in_the_middle_of_another_leaves_by_the_nearest_face) 
 /// |______| | first contact: the area that the two faces have in common
 ///             |_____|
 TEST(Penetration, of_cubes_is_seen_at_points_of_both_where_a_corner_stands_out) {
-  const ContactShape cube(Shape<double>(Box<double>{{1, 1, 1}}));
+  const ContactShape cube(Shape(Box{{1, 1, 1}}));
   const double size = 2 * cube.ball_radius();
   for (const double out : {1e-12, -1e-12, 1.5e-11, -1.5e-11}) {
     const Vec3<double> middle(out, 0, 1.875);

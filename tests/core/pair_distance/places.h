@@ -28,10 +28,10 @@ inline Vec3<double> place_at(double distance, RandomShapes& random) {
 inline Affine<double> moved(const Affine<double>& pose, const Vec3<double>& way) {
   return {pose.linear, pose.translation + way};
 }
-inline Shape<double> under(const Shape<double>& shape, const Affine<double>& map) {
-  return Transform<double>{shape, map};
+inline Shape under(const Shape& shape, const Affine<double>& map) {
+  return Transform{shape, map};
 }
-inline Shape<double> moved(const Shape<double>& shape, const Vec3<double>& way) {
+inline Shape moved(const Shape& shape, const Vec3<double>& way) {
   return under(shape, {Mat3<double>::Identity(), way});
 }
 
@@ -132,7 +132,7 @@ inline double slight_gap(int k, RandomShapes& random) {
 }
 
 /// All kinds, some within others.
-inline Shape<double> any_shape(int k, RandomShapes& random) {
+inline Shape any_shape(int k, RandomShapes& random) {
   static const std::vector<SampleShape> samples = sample_shapes();
   const std::size_t count = samples.size();
   switch (k % 3) {
@@ -146,7 +146,7 @@ inline Shape<double> any_shape(int k, RandomShapes& random) {
 }
 
 struct PosedShapes {
-  Shape<double> a, b;
+  Shape a, b;
   Affine<double> pose_a, pose_b;
   double size = 0;
 
@@ -165,7 +165,7 @@ inline PosedShapes any_pair(int k, RandomShapes& random) {
   if (k % 2 == 0) return pair;
   const double gap = pair.distance().value;
   if (gap > 0 && gap < 10 * pair.size)
-    pair.a = Rounded<double>{gap + pair.size * slight_gap(k / 2, random), Nested<double>(pair.a)};
+    pair.a = Rounded{gap + pair.size * slight_gap(k / 2, random), Nested(pair.a)};
   return pair;
 }
 

@@ -28,8 +28,7 @@ TEST(Places, capsules_are_as_far_apart_as_their_closed_form_says) {
         if (!(radius_b > 0)) continue;
       }
       b.radius = radius_b;
-      const Shape<double> of_a = Capsule<double>{radius_a, half_a},
-                          of_b = Capsule<double>{radius_b, half_b};
+      const Shape of_a = Capsule{radius_a, half_a}, of_b = Capsule{radius_b, half_b};
       const Quad truth = signed_distance_of(a, b);
       const ContactShape ready_a(of_a), ready_b(of_b);
       SCOPED_TRACE(std::to_string(place) + " " + std::to_string(k));
@@ -129,38 +128,35 @@ TEST(Places, distances_of_all_kinds_are_the_same_in_shapes_that_are_moved) {
 
 TEST(Places, distances_are_the_same_of_parts_that_are_moved) {
   RandomShapes random(604);
-  const auto nested = [](const Shape<double>& shape) { return Nested<double>(shape); };
+  const auto nested = [](const Shape& shape) { return Nested(shape); };
   for (int k = 0; k < number_of_cases(1200); ++k) {
-    const Shape<double> one = random_shape(k % kinds_of_bodies, 1, random),
-                        two = random_shape(k / kinds_of_bodies % kinds_of_bodies, 1, random),
-                        other = random_shape(5 * k % kinds_of_bodies, 1, random);
+    const Shape one = random_shape(k % kinds_of_bodies, 1, random),
+                two = random_shape(k / kinds_of_bodies % kinds_of_bodies, 1, random),
+                other = random_shape(5 * k % kinds_of_bodies, 1, random);
     const Vec3<double> aside = coarse(random.direction());
     const Affine<double> pose{random.turn(), coarse(random.in(1, 4) * random.direction())};
     for (const double place : places) {
       const Vec3<double> way = place_at(place, random);
-      const Shape<double> there = moved(one, way),
-                          also_there = moved(two, Vec3<double>(way + aside)),
-                          opposite = moved(two, Vec3<double>(aside - way));
+      const Shape there = moved(one, way), also_there = moved(two, Vec3<double>(way + aside)),
+                  opposite = moved(two, Vec3<double>(aside - way));
       PosedShapes near{other, other, {}, pose}, far = near;
       switch (k % 4) {
         case 0:
-          near.a = MinkowskiSum<double>{{nested(one), nested(moved(two, aside))}};
-          far.a = MinkowskiSum<double>{{nested(there), nested(opposite)}};
+          near.a = MinkowskiSum{{nested(one), nested(moved(two, aside))}};
+          far.a = MinkowskiSum{{nested(there), nested(opposite)}};
           break;
         case 1:
-          near.a = MinkowskiDifference<double>{nested(one), nested(moved(two, aside))};
-          far.a = MinkowskiDifference<double>{nested(there), nested(also_there)};
+          near.a = MinkowskiDifference{nested(one), nested(moved(two, aside))};
+          far.a = MinkowskiDifference{nested(there), nested(also_there)};
           break;
         case 2:
-          near.a = HullOf<double>{{nested(one), nested(moved(two, aside))}};
-          far.a = HullOf<double>{{nested(there), nested(also_there)}};
+          near.a = HullOf{{nested(one), nested(moved(two, aside))}};
+          far.a = HullOf{{nested(there), nested(also_there)}};
           far.pose_b.translation += way;
           break;
         default:
-          near.a = Rounded<double>{
-              0.125, nested(HullOf<double>{{nested(one), nested(moved(two, aside))}})};
-          far.a =
-              Rounded<double>{0.125, nested(HullOf<double>{{nested(there), nested(also_there)}})};
+          near.a = Rounded{0.125, nested(HullOf{{nested(one), nested(moved(two, aside))}})};
+          far.a = Rounded{0.125, nested(HullOf{{nested(there), nested(also_there)}})};
           far.pose_a.translation -= way;
           break;
       }
@@ -174,14 +170,14 @@ TEST(Places, points_far_away_are_the_shape_that_they_are_nearby) {
   for (int k = 0; k < number_of_cases(600); ++k) {
     std::vector<Vec3<double>> points;
     for (int i = 0; i < 1 + k % 40; ++i) points.push_back(coarse(random.direction()));
-    const Shape<double> other = random_shape(k % kinds_of_bodies, 1, random);
+    const Shape other = random_shape(k % kinds_of_bodies, 1, random);
     const Affine<double> pose{random.turn(), coarse(random.in(0, 3) * random.direction())};
-    const PosedShapes near{Hull<double>{PointCloud<double>(points)}, other, {}, pose};
+    const PosedShapes near{Hull{PointCloud(points)}, other, {}, pose};
     for (const double place : places) {
       const Vec3<double> way = place_at(place, random);
       std::vector<Vec3<double>> there;
       for (const Vec3<double>& p : points) there.push_back(p + way);
-      const PosedShapes far{Hull<double>{PointCloud<double>(there)}, other, {}, moved(pose, way)};
+      const PosedShapes far{Hull{PointCloud(there)}, other, {}, moved(pose, way)};
       ASSERT_EQ(complaint_of(near.distance(), far.distance(), 4), "") << k << " " << place;
     }
   }

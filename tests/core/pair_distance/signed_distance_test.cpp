@@ -118,7 +118,7 @@ TEST(SignedDistance, bounds_are_as_near_to_each_other_as_is_asked) {
   for (const double asked : {1e-13, 1e-14})
     for (const int kind : {15, 16})
       for (int k = 0; k < 40; ++k, ++all) {
-        const Body ball(Sphere<double>{random.in(0.2, 1)},
+        const Body ball(Sphere{random.in(0.2, 1)},
                         {Mat3<double>::Identity(), Vec3<double>::Zero()}),
             other(random_shape(kind, 1, random), {random.turn(), 5 * random.direction()});
         SignedDistanceOptions options;
@@ -140,13 +140,13 @@ TEST(SignedDistance, small_shapes_far_from_their_origin_have_bounds_in_order) {
   RandomShapes random(17);
   for (int k = 0; k < 3000; ++k) {
     const auto small = [&] {
-      ShapeList<double> balls;
+      ShapeList balls;
       const Vec3<double> far = random.in(1, 10) * random.direction();
       for (int i = 0; i < 2; ++i)
-        balls.push_back(Shape<double>(Transform<double>{
-            Nested<double>(Shape<double>(Sphere<double>{random.in(1e-4, 2e-4)})),
-            Affine<double>{Mat3<double>::Identity(), far + 1e-4 * random.direction()}}));
-      return Shape<double>(HullOf<double>{balls});
+        balls.push_back(Shape(
+            Transform{Nested(Shape(Sphere{random.in(1e-4, 2e-4)})),
+                      Affine<double>{Mat3<double>::Identity(), far + 1e-4 * random.direction()}}));
+      return Shape(HullOf{balls});
     };
     const Body a(small(), {random.turn(), Vec3<double>::Zero()});
     Body b(small(), {random.turn(), random.direction()});
@@ -161,12 +161,12 @@ TEST(SignedDistance, small_shapes_far_from_their_origin_have_bounds_in_order) {
 /// The bounds are as far apart as its own digits make them: that is no reason to be undecided.
 TEST(SignedDistance, of_what_touches_far_from_its_own_origin_is_known_to_its_digits) {
   constexpr double far = 0x1p22;
-  ShapeList<double> balls;
+  ShapeList balls;
   for (const double x : {far, far + 1})
-    balls.push_back(Shape<double>(
-        Transform<double>{Nested<double>(Shape<double>(Sphere<double>{0.5})),
-                          Affine<double>{Mat3<double>::Identity(), Vec3<double>(x, 0, 0.5)}}));
-  const ContactShape rod(Shape<double>(HullOf<double>{balls})), table(Box<double>{{2, 2, 0.5}});
+    balls.push_back(
+        Shape(Transform{Nested(Shape(Sphere{0.5})),
+                        Affine<double>{Mat3<double>::Identity(), Vec3<double>(x, 0, 0.5)}}));
+  const ContactShape rod(Shape(HullOf{balls})), table(Box{{2, 2, 0.5}});
   const Affine<double> here{Mat3<double>::Identity(), {-far, 0, 0}},
       below{Mat3<double>::Identity(), {0, 0, -0.5}};
   const SignedDistance found = signed_distance(table, below, rod, here);
@@ -178,12 +178,12 @@ TEST(SignedDistance, of_what_touches_far_from_its_own_origin_is_known_to_its_dig
 
 TEST(SignedDistance, is_undecided_where_squares_of_lengths_overflow) {
   const auto at = [](double radius, const Vec3<double>& centre) {
-    return ContactShape(Transform<double>{Nested<double>(Shape<double>(Sphere<double>{radius})),
-                                          Affine<double>{Mat3<double>::Identity(), centre}});
+    return ContactShape(
+        Transform{Nested(Shape(Sphere{radius})), Affine<double>{Mat3<double>::Identity(), centre}});
   };
   const Vec3<double> far(1e308, 1e308, 1e308);
-  const ContactShape box(Box<double>{{1e200, 1e200, 1e200}}), small(at(1, far)),
-      opposite(at(1, -far)), large(at(1e200, Vec3<double>::Zero()));
+  const ContactShape box(Box{{1e200, 1e200, 1e200}}), small(at(1, far)), opposite(at(1, -far)),
+      large(at(1e200, Vec3<double>::Zero()));
   for (const auto& [a, b] : {std::pair(small, opposite), {large, small}, {box, small}}) {
     const SignedDistance found = signed_distance(a, b);
     EXPECT_EQ(found.status, SignedStatus::undecided);
@@ -200,7 +200,7 @@ TEST(SignedDistance, of_what_is_far_away_is_proven_by_its_plane) {
   for (const double far : {1e3, 1e7, 1e9, 1e12, 1e17, 1e50, 1e150})
     for (int kind = 0; kind < kinds_of_bodies; ++kind)
       for (int k = 0; k < 20; ++k) {
-        const Body ball(Sphere<double>{0.5}, origin),
+        const Body ball(Sphere{0.5}, origin),
             other(random_shape(kind, 1, random), {random.turn(), far * random.direction()});
         const SignedDistance found =
             signed_distance(ball.ready, ball.pose, other.ready, other.pose);
@@ -213,8 +213,7 @@ TEST(SignedDistance, of_what_is_far_away_is_proven_by_its_plane) {
 
 /// If nothing is known the value is 0, and only is_unknown() distinguishes it from a contact.
 TEST(SignedDistance, is_unknown_only_where_it_gave_up_without_bounds) {
-  const ContactShape ball(Shape<double>(Sphere<double>{1})),
-      box(Shape<double>(Box<double>{{1, 1, 1}}));
+  const ContactShape ball(Shape(Sphere{1})), box(Shape(Box{{1, 1, 1}}));
   const auto at = [](double x) {
     return Affine<double>{Mat3<double>::Identity(), Vec3<double>(x, 0, 0)};
   };
@@ -264,7 +263,7 @@ TEST(SignedDistance, of_segments_too_short_for_products_is_that_of_points) {
       const ContactShape a(random_shape(1, other, random)), b(random_shape(1, length, random));
       const Affine<double> pose{random.turn(), 3 * random.direction()};
       const SignedDistance found = signed_distance(a, {}, b, pose),
-                           of_point = signed_distance(a, {}, ContactShape(Point<double>{}), pose);
+                           of_point = signed_distance(a, {}, ContactShape(Point{}), pose);
       EXPECT_NEAR(found.value, of_point.value, 1e-14) << length << " beside " << other;
       EXPECT_LT((found.normal - of_point.normal).norm(), 1e-14) << length << " beside " << other;
       EXPECT_LE(found.upper - found.lower, 1e-13) << length << " beside " << other;
@@ -273,7 +272,7 @@ TEST(SignedDistance, of_segments_too_short_for_products_is_that_of_points) {
 
 /// If squares of lengths are out of range a ball far above the plane touched it.
 TEST(SignedDistance, of_a_half_space_is_known_as_far_as_numbers_go) {
-  const ContactShape ball(Shape<double>(Sphere<double>{1}));
+  const ContactShape ball(Shape(Sphere{1}));
   const Vec3<double> up(0, 0, 1);
   const auto above = [&](double z, double offset) {
     return distance_to_half_space(up, offset, ball,
@@ -284,11 +283,10 @@ TEST(SignedDistance, of_a_half_space_is_known_as_far_as_numbers_go) {
     EXPECT_EQ(above(-z, 0).status, SignedStatus::overlapping) << z;
   }
   EXPECT_TRUE(above(1.5e308, -1.5e308).is_unknown());
-  const ContactShape infinite(
-      Shape<double>(Sphere<double>{std::numeric_limits<double>::infinity()}));
+  const ContactShape infinite(Shape(Sphere{std::numeric_limits<double>::infinity()}));
   EXPECT_TRUE(distance_to_half_space(up, 0, infinite, {}).is_unknown());
   // The ball touches the plane, but the bound of its rounding is out of range.
-  const ContactShape huge(Shape<double>(Sphere<double>{1e308}));
+  const ContactShape huge(Shape(Sphere{1e308}));
   EXPECT_TRUE(
       distance_to_half_space(up, 0, huge, {Mat3<double>::Identity(), Vec3<double>(0, 0, 1e308)})
           .is_unknown());

@@ -11,39 +11,38 @@ namespace {
 using testing::Body;
 using testing::RandomShapes;
 
-Shape<double> sum_of(std::initializer_list<Shape<double>> operands) {
-  ShapeList<double> shapes;
-  for (const Shape<double>& operand : operands) shapes.push_back(operand);
-  return MinkowskiSum<double>{shapes};
+Shape sum_of(std::initializer_list<Shape> operands) {
+  ShapeList shapes;
+  for (const Shape& operand : operands) shapes.push_back(operand);
+  return MinkowskiSum{shapes};
 }
 
 /// A shape with balls and points about it, one way or another.
-Shape<double> with_balls(int way, const Shape<double>& shape, RandomShapes& random) {
-  const Shape<double> ball = Sphere<double>{random.in(0.1, 0.5)},
-                      point = Point<double>{random.direction()};
+Shape with_balls(int way, const Shape& shape, RandomShapes& random) {
+  const Shape ball = Sphere{random.in(0.1, 0.5)}, point = Point{random.direction()};
   switch (way) {
     case 0:
       return sum_of({ball, shape, point});
     case 1:
-      return MinkowskiDifference<double>{shape, sum_of({ball, point})};
+      return MinkowskiDifference{shape, sum_of({ball, point})};
     case 2:
-      return MinkowskiDifference<double>{point, shape};
+      return MinkowskiDifference{point, shape};
     default:
-      return sum_of({sum_of({shape, point}), Rounded<double>{0.25, Nested<double>(point)}});
+      return sum_of({sum_of({shape, point}), Rounded{0.25, Nested(point)}});
   }
 }
 
 TEST(SumsWithBalls, are_as_well_known_as_what_they_are_added_to) {
   RandomShapes random(83);
   for (int k = 0; k < 1500; ++k) {
-    const Shape<double> inner = testing::random_shape(k % 15, 1, random);
-    const Shape<double> sum = with_balls(k % 4, inner, random);
+    const Shape inner = testing::random_shape(k % 15, 1, random);
+    const Shape sum = with_balls(k % 4, inner, random);
     const ContactShape of_inner(inner), of_sum(sum);
     ASSERT_EQ(of_sum.core().kind, of_inner.core().kind) << k;
     // Under a map that keeps angles, and under one that does not.
     Mat3<double> map = random.turn() * random.in(0.5, 2);
     if (k % 5 == 0) map = map * Vec3<double>(1, 2, 0.5).asDiagonal();
-    const Transform<double> moved{Nested<double>(sum), Affine<double>{map, random.direction()}};
+    const Transform moved{Nested(sum), Affine<double>{map, random.direction()}};
     const Body a(moved, {random.turn(), Vec3<double>::Zero()}),
         b(testing::random_shape(k / 15 % testing::kinds_of_bodies, 1, random),
           {random.turn(), random.in(0, 5) * random.direction()});

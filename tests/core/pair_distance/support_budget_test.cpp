@@ -12,11 +12,11 @@ namespace {
 using testing::RandomShapes;
 
 /// Known by its support mapping only.
-Shape<double> hull_of(const Shape<double>& shape) {
-  ShapeList<double> shapes;
+Shape hull_of(const Shape& shape) {
+  ShapeList shapes;
   shapes.push_back(shape);
   shapes.push_back(shape);
-  return HullOf<double>{shapes};
+  return HullOf{shapes};
 }
 
 /// Support points used outside of branch and bound: searches before it, and the points of contact
@@ -25,7 +25,7 @@ constexpr int beside_each = 1500;
 
 TEST(SupportBudget, directions_that_are_all_as_good_end_with_bounds_that_hold) {
   // The middle of a ball: no number of support points is enough.
-  const ContactShape ball(hull_of(Sphere<double>{1})), point(Point<double>{{0, 0, 0}});
+  const ContactShape ball(hull_of(Sphere{1})), point(Point{{0, 0, 0}});
   double before = std::numeric_limits<double>::infinity();
   for (const int budget : {100, 1000, 10000, 50000}) {
     SignedDistanceOptions options;
@@ -45,7 +45,7 @@ TEST(SupportBudget, directions_that_are_all_as_good_end_with_bounds_that_hold) {
 }
 
 TEST(SupportBudget, that_is_not_used_up_is_not_told_to_be) {
-  const ContactShape ball(hull_of(Sphere<double>{1})), point(Point<double>{{0, 0, 0}});
+  const ContactShape ball(hull_of(Sphere{1})), point(Point{{0, 0, 0}});
   SignedDistanceOptions rough;
   rough.tolerance = 1e-2;
   const SignedDistance found = signed_distance(ball, {}, point, {}, rough);
@@ -80,7 +80,7 @@ TEST(SupportBudget, bounds_hold_for_any_pair_and_any_budget) {
 }
 
 TEST(SupportBudget, points_at_one_place_touch) {
-  const ContactShape point(hull_of(hull_of(Point<double>{{-0.0625, -0.0625, -0.0625}})));
+  const ContactShape point(hull_of(hull_of(Point{{-0.0625, -0.0625, -0.0625}})));
   const SignedDistance found = signed_distance(point, {}, point, {});
   EXPECT_EQ(found.status, SignedStatus::touching);
   EXPECT_EQ(found.value, 0);

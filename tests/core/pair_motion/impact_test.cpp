@@ -30,7 +30,7 @@ TEST(Impact, of_turning_boxes_is_that_of_dense_samples) {
   EXPECT_LT(seen.width, 1e-6);
 }
 
-const ContactShape cube{Shape<double>(Box<double>{{1, 1, 1}})};
+const ContactShape cube{Shape(Box{{1, 1, 1}})};
 
 RigidMotion at(double x, double y, double z, const Vec3<double>& velocity,
                const Vec3<double>& angular = Vec3<double>::Zero()) {
@@ -43,7 +43,7 @@ TEST(Impact, of_a_rod_that_leaves_with_one_end_is_that_of_the_other) {
   constexpr double tilt = 1e-7;
   ImpactOptions options;
   options.touching = 1e-6;
-  const ContactShape rod{Shape<double>(Capsule<double>{0.125, 0.5})};
+  const ContactShape rod{Shape(Capsule{0.125, 0.5})};
   RigidMotion motion = at(0, 0, 1.125 + tilt / 2, {0, 0, 0}, {0, 1, 0});
   motion.pose.linear << tilt, 0, 1, 0, 1, 0, -1, 0, tilt;  // axis along x
   motion.pose.linear.col(2) = Vec3<double>(1, 0, tilt);
@@ -81,7 +81,7 @@ TEST(Impact, a_contact_at_the_start_counts_unless_the_two_part) {
 /// The step away from a contact was as long as a part of their sizes, which are none: it was
 /// repeated for ever. If points in one place part depends on a normal, which any direction is.
 TEST(Impact, points_in_one_place_part_or_touch) {
-  const ContactShape point{Shape<double>(Point<double>{{0, 0, 0}})};
+  const ContactShape point{Shape(Point{{0, 0, 0}})};
   const RigidMotion rests = at(1, 2, 3, {0, 0, 0});
   int misses = 0;
   for (const double speed : {1.0, -1.0})
@@ -98,11 +98,10 @@ TEST(Impact, points_in_one_place_part_or_touch) {
 /// times all support points of a distance's budget were used up, for a minute under sanitizers.
 TEST(Impact, of_infinite_bodies_is_given_up_soon) {
   const double infinity = std::numeric_limits<double>::infinity();
-  const ContactShape needle{Shape<double>(Capsule<double>{0.5, infinity})};
-  const Shape<double> superellipsoid = Superellipsoid<double>{{1, 1, 1}, 4};
+  const ContactShape needle{Shape(Capsule{0.5, infinity})};
+  const Shape superellipsoid = Superellipsoid{{1, 1, 1}, 4};
   const Affine<double> aside = {Mat3<double>::Identity(), {4, 0, 0}};
-  const ContactShape body{
-      Shape<double>(Transform<double>{superellipsoid, AffineMap<double>(aside)})};
+  const ContactShape body{Shape(Transform{superellipsoid, AffineMap(aside)})};
   const Impact impact =
       first_impact(needle, at(0, 0, 0, {1, 5e-324, 1}, {0, 0, 1}), body, at(0, 0, 0, {0, 0, 0}), 5);
   EXPECT_EQ(impact.status, ImpactStatus::undecided);
@@ -111,7 +110,7 @@ TEST(Impact, of_infinite_bodies_is_given_up_soon) {
 }
 
 TEST(Impact, what_grazes_is_a_hit_and_what_passes_is_a_miss) {
-  const ContactShape ball(Shape<double>(Sphere<double>{1}));
+  const ContactShape ball(Shape(Sphere{1}));
   const RigidMotion rest = at(0, 0, 0, {0, 0, 0});
   const auto pass = [&](double beside) {
     return first_impact(ball, rest, ball, at(-5, beside, 0, {1, 0, 0}), 10).status;
@@ -121,14 +120,13 @@ TEST(Impact, what_grazes_is_a_hit_and_what_passes_is_a_miss) {
   EXPECT_EQ(pass(2 + 1e-6), ImpactStatus::miss);
 }
 
-const ContactShape ball{Shape<double>(Sphere<double>{1})};
+const ContactShape ball{Shape(Sphere{1})};
 
 TEST(Impact, of_a_ball_that_leaves_and_comes_round_is_found_in_the_longest_time) {
   // Around (2, 1) with an arm of 1, from (2, 0): it is as far from the middle again as at the
   // start where that is mirrored on the line to (2, 1), at (1.2, 1.6).
   const Affine<double> arm{Mat3<double>::Identity(), {0, -1, 0}};
-  const ContactShape on_arm{
-      Shape<double>(Transform<double>{Shape<double>(Sphere<double>{1}), AffineMap<double>(arm)})};
+  const ContactShape on_arm{Shape(Transform{Shape(Sphere{1}), AffineMap(arm)})};
   const double exact = std::acos(-1.0) + std::asin(0.8);
   for (const double t_max : {10.0, 1e20, 1e30, 1e31, 1e33, 1e100, 1e300}) {
     const Impact found = first_impact(ball, at(0, 0, 0, {0, 0, 0}), on_arm,
@@ -148,8 +146,7 @@ TEST(Impact, of_a_ball_that_leaves_slowly_and_comes_back_is_not_leapt_over) {
     // The arm is (1, -slow) at first, from a pivot to the left, so that the ball moves by (slow,
     // 1). The ball is furthest where the arm leads along the way from the middle to the pivot.
     const Affine<double> arm{Mat3<double>::Identity(), {1, -slow, 0}};
-    const ContactShape on_arm{
-        Shape<double>(Transform<double>{Shape<double>(Sphere<double>{1}), AffineMap<double>(arm)})};
+    const ContactShape on_arm{Shape(Transform{Shape(Sphere{1}), AffineMap(arm)})};
     const double exact = 4 * std::atan(slow);
     const Impact found = first_impact(ball, rest, on_arm, at(1, slow, 0, {0, 0, 0}, {0, 0, 1}), 10);
     ASSERT_EQ(found.status, ImpactStatus::hit) << slow;
@@ -203,8 +200,7 @@ TEST(Impact, at_a_time_that_is_no_number_is_no_hit) {
 /// A distance that did not converge has the value 0, which counted as touching: balls 1e200 from
 /// each other were `inside` of each other, and one next to an infinite one was hit in the end.
 TEST(Impact, is_given_up_where_the_distance_is_unknown) {
-  const ContactShape infinite{
-      Shape<double>(Sphere<double>{std::numeric_limits<double>::infinity()})};
+  const ContactShape infinite{Shape(Sphere{std::numeric_limits<double>::infinity()})};
   const RigidMotion rest = at(0, 0, 0, {0, 0, 0});
   for (const double apart : {1e155, 1e200, 1e307})
     for (const Vec3<double>& turn : {Vec3<double>(0, 0, 0), Vec3<double>(0, 1, 0)}) {
@@ -234,7 +230,7 @@ TEST(Impact, of_bodies_that_part_beyond_all_distances_is_not_told) {
 /// Bodies come near enough to be touching a little before they meet.
 TEST(Impact, is_never_after_the_time_that_was_asked_for) {
   const RigidMotion rest = at(0, 0, 0, {0, 0, 0});
-  const ContactShape cylinder{Shape<double>(Cylinder<double>{1, 1})};
+  const ContactShape cylinder{Shape(Cylinder{1, 1})};
   ImpactOptions coarse;
   coarse.touching = 1e-3;
   int hits = 0;
@@ -252,7 +248,7 @@ TEST(Impact, is_never_after_the_time_that_was_asked_for) {
 
 /// The length of 1e-165 is no square root of its square, 0: such turns were none.
 TEST(Impact, slow_and_fast_turns_are_turns) {
-  const ContactShape rod{Shape<double>(Capsule<double>{0.1, 5})};
+  const ContactShape rod{Shape(Capsule{0.1, 5})};
   const Impact ordinary =
       first_impact(rod, at(0, 0, 0, {0, 0, 0}, {0, 1, 0}), ball, at(4, 0, 0, {0, 0, 0}), 3);
   ASSERT_EQ(ordinary.status, ImpactStatus::hit);

@@ -231,11 +231,9 @@ TEST(GapAlong, is_what_planes_leave_less_a_little_for_rounding) {
       for (int k = 0; k < 300; ++k) {
         const Affine<double> pose_a{random.turn(), random.direction()};
         const Affine<double> pose_b{random.turn(), pose_a.translation + away * random.direction()};
-        const ContactShape a{Shape<double>(Sphere<double>{radius + 0.5})};
-        const ContactShape b{radius > 0
-                                 ? Shape<double>(Rounded<double>{
-                                       radius, Nested<double>(Shape<double>(Box<double>{half}))})
-                                 : Shape<double>(Box<double>{half})};
+        const ContactShape a{Shape(Sphere{radius + 0.5})};
+        const ContactShape b{radius > 0 ? Shape(Rounded{radius, Nested(Shape(Box{half}))})
+                                        : Shape(Box{half})};
         const Vec3<double> n = random.direction().normalized();
         const long double exact =
             exact_gap(radius + 0.5, pose_a, half, radius, pose_b, n) / n.cast<long double>().norm();

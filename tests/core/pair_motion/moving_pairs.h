@@ -134,9 +134,9 @@ inline std::string impact_complaint(const MovingPair& pair, int samples, SeenImp
 }
 
 inline MovingPair moving_capsules(RandomNumbers& random) {
-  const Capsule<double> A{random.in(0.1, 0.5), random.in(0.1, 1)},
+  const Capsule A{random.in(0.1, 0.5), random.in(0.1, 1)},
       B{random.in(0.1, 0.5), random.in(0.1, 1)};
-  MovingPair pair{ContactShape(Shape<double>(A)), ContactShape(Shape<double>(B)), {}, {}, 0, {}};
+  MovingPair pair{ContactShape(Shape(A)), ContactShape(Shape(B)), {}, {}, 0, {}};
   move_at_random(pair, random);
   pair.gap = [A, B, of_a = pair.of_a, of_b = pair.of_b](Long t) {
     const auto ends = [&](const RigidMotion& motion, double half) {
@@ -151,9 +151,9 @@ inline MovingPair moving_capsules(RandomNumbers& random) {
 }
 
 inline MovingPair moving_boxes(RandomNumbers& random) {
-  const Box<double> A{{random.in(0.1, 1), random.in(0.1, 1), random.in(0.1, 1)}},
+  const Box A{{random.in(0.1, 1), random.in(0.1, 1), random.in(0.1, 1)}},
       B{{random.in(0.1, 1), random.in(0.1, 1), random.in(0.1, 1)}};
-  MovingPair pair{ContactShape(Shape<double>(A)), ContactShape(Shape<double>(B)), {}, {}, 0, {}};
+  MovingPair pair{ContactShape(Shape(A)), ContactShape(Shape(B)), {}, {}, 0, {}};
   move_at_random(pair, random);
   pair.gap = [A, B, of_a = pair.of_a, of_b = pair.of_b](Long t) {
     return gap_of_boxes(A.half_extents, pose_at(of_a, t), B.half_extents, pose_at(of_b, t));

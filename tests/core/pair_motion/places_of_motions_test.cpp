@@ -66,7 +66,7 @@ TEST(Places, times_of_impact_are_the_same_in_poses_and_shapes_that_are_moved) {
       if (k % 2 == 0) continue;
       // Without turns the frame is no matter.
       there.b.pose = here.b.pose;
-      const Shape<double> of_a = moved(under(pair.a, pair.pose_a), way);
+      const Shape of_a = moved(under(pair.a, pair.pose_a), way);
       there.a.pose = {Mat3<double>::Identity(), -way};
       const Impact in_shape =
           first_impact(ContactShape(of_a), there.a, ContactShape(pair.b), there.b, 1.5);
@@ -99,9 +99,8 @@ TEST(Places, balls_meet_when_their_closed_form_says) {
       const Quad r = Quad(radius_a) + Quad(radius_b), towards = -quad_dot(x, v),
                  vv = quad_dot(v, v), inside = towards * towards - vv * (quad_dot(x, x) - r * r);
       if (!(quad_dot(x, x) > r * r)) continue;
-      const Impact found =
-          first_impact(ContactShape(Shape<double>(Sphere<double>{radius_a})), a,
-                       ContactShape(Shape<double>(Sphere<double>{radius_b})), b, 3);
+      const Impact found = first_impact(ContactShape(Shape(Sphere{radius_a})), a,
+                                        ContactShape(Shape(Sphere{radius_b})), b, 3);
       const Quad time = inside > 0 ? (towards - root(inside)) / vv : Quad(-1);
       if (found.status == ImpactStatus::miss) {
         ASSERT_TRUE(!(inside > 0) || time < 0 || time > 3) << place << " " << k;
@@ -116,7 +115,7 @@ TEST(Places, half_spaces_are_as_far_as_they_are_nearby) {
   RandomShapes random(609);
   const std::array<Vec3<double>, 2> normals = {Vec3<double>::UnitZ(), Vec3<double>(0, -1, 0)};
   for (int k = 0; k < number_of_cases(900); ++k) {
-    const Shape<double> shape = any_shape(k, random);
+    const Shape shape = any_shape(k, random);
     const ContactShape ready(shape);
     const Affine<double> pose{random.turn(), coarse(random.in(0, 2) * random.direction())};
     const Vec3<double>& n = normals[static_cast<std::size_t>(k) % 2];
@@ -139,16 +138,14 @@ TEST(Places, contacts_are_as_deep_as_they_are_nearby) {
   RandomShapes random(610);
   int points = 0;
   for (int k = 0; k < 400; ++k) {
-    const Shape<double> box =
-                            Box<double>{{random.in(0.5, 1), random.in(0.5, 1), random.in(0.2, 1)}},
-                        other = k % 2 == 0 ? Shape<double>(Cylinder<double>{random.in(0.2, 1), 0.5})
-                                           : Shape<double>(Box<double>{{0.5, 0.25, 0.5}});
+    const Shape box = Box{{random.in(0.5, 1), random.in(0.5, 1), random.in(0.2, 1)}},
+                other = k % 2 == 0 ? Shape(Cylinder{random.in(0.2, 1), 0.5})
+                                   : Shape(Box{{0.5, 0.25, 0.5}});
     const ContactShape a(box), b(other);
     const double tilt = k % 3 == 0 ? 0 : random.in(0, 0.01);
-    const Affine<double> pose_a{},
-        pose_b{rotation_matrix(tilt, 0.0, 0.0, 1.0),
-               coarse({random.in(-0.3, 0.3), random.in(-0.3, 0.3),
-                       std::get<Box<double>>(box.kind).half_extents.z() + 0.5})};
+    const Affine<double> pose_a{}, pose_b{rotation_matrix(tilt, 0.0, 0.0, 1.0),
+                                          coarse({random.in(-0.3, 0.3), random.in(-0.3, 0.3),
+                                                  std::get<Box>(box.kind).half_extents.z() + 0.5})};
     const auto manifold = [&](const Vec3<double>& way) {
       const Affine<double> at_a = moved(pose_a, way), at_b = moved(pose_b, way);
       return contact_manifold(a, at_a, b, at_b, signed_distance(a, at_a, b, at_b));

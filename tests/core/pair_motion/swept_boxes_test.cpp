@@ -19,7 +19,7 @@ struct TwoBoxes {
   double t_max = 2;
 
   SweptTime swept(double near = 1e-9) const {
-    const ContactShape a{Shape<double>(Box<double>{half_a})}, b{Shape<double>(Box<double>{half_b})};
+    const ContactShape a{Shape(Box{half_a})}, b{Shape(Box{half_b})};
     const Affine<double> pose_a;
     return swept_boxes(pair_of(a, pose_a, pose_a.linear, b, pose_b), velocity, t_max, near);
   }

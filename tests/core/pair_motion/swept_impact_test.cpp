@@ -80,8 +80,7 @@ TEST(SweptImpact, is_that_of_steps) {
 
 TEST(SweptImpact, of_polytopes_is_exact) {
   // A corner of a unit cube on its diagonal meets a plate.
-  const ContactShape cube(Shape<double>(Box<double>{{0.5, 0.5, 0.5}})),
-      plate(Shape<double>(Box<double>{{5, 5, 0.25}}));
+  const ContactShape cube(Shape(Box{{0.5, 0.5, 0.5}})), plate(Shape(Box{{5, 5, 0.25}}));
   const Mat3<double> on_diagonal =
       Eigen::Quaterniond::FromTwoVectors(Vec3<double>(1, 1, 1), Vec3<double>(0, 0, -1))
           .toRotationMatrix();
@@ -99,7 +98,7 @@ TEST(SweptImpact, of_polytopes_is_exact) {
 }
 
 TEST(SweptImpact, of_a_miss_tells_the_distance_at_the_end_if_it_is_asked_for) {
-  const ContactShape ball(Shape<double>(Sphere<double>{1}));
+  const ContactShape ball(Shape(Sphere{1}));
   const RigidMotion still{{Mat3<double>::Identity(), Vec3<double>::Zero()}},
       passing{{Mat3<double>::Identity(), Vec3<double>(-5, 3, 0)}, Vec3<double>(1, 0, 0)};
   const Impact found = first_impact(ball, still, ball, passing, 5);
@@ -114,10 +113,9 @@ TEST(SweptImpact, of_a_miss_tells_the_distance_at_the_end_if_it_is_asked_for) {
 /// Squares of speeds of 1e155 are infinite, and those of 1e-162 have no digits: balls passed by
 /// each other on the way that led to their middles.
 TEST(SweptImpact, does_not_depend_on_how_fast_the_two_are) {
-  const ContactShape ball(Shape<double>(Sphere<double>{1})),
-      box(Shape<double>(Box<double>{{1, 1, 1}})), cylinder(Shape<double>(Cylinder<double>{1, 1})),
-      ellipsoid(Shape<double>(Ellipsoid<double>{{1, 0.9, 0.8}})),
-      rod(Shape<double>(Capsule<double>{1, 5}));
+  const ContactShape ball(Shape(Sphere{1})), box(Shape(Box{{1, 1, 1}})),
+      cylinder(Shape(Cylinder{1, 1})), ellipsoid(Shape(Ellipsoid{{1, 0.9, 0.8}})),
+      rod(Shape(Capsule{1, 5}));
   const auto at = [](double x, double speed) {
     return RigidMotion{{Mat3<double>::Identity(), Vec3<double>(x, 0, 0)},
                        Vec3<double>(speed, 0, 0)};
@@ -150,13 +148,12 @@ TEST(SweptImpact, does_not_depend_on_how_fast_the_two_are) {
 /// Rounding suggests that a body that comes straight at the other from 1e18 sizes away passes by
 /// at a hundred sizes: that was reported as a miss.
 TEST(SweptImpact, what_comes_straight_at_the_other_from_far_away_is_no_miss) {
-  const std::array<Shape<double>, 5> shapes = {Sphere<double>{1}, Box<double>{{1, 1, 1}},
-                                               Cone<double>{1, 1}, Cylinder<double>{1, 0.7},
-                                               Ellipsoid<double>{{1, 0.7, 0.9}}};
+  const std::array<Shape, 5> shapes = {Sphere{1}, Box{{1, 1, 1}}, Cone{1, 1}, Cylinder{1, 0.7},
+                                       Ellipsoid{{1, 0.7, 0.9}}};
   RandomShapes random(7);
   for (const double far : {1e3, 1e18, 1e100, 1e200})
-    for (const Shape<double>& a : shapes)
-      for (const Shape<double>& b : shapes) {
+    for (const Shape& a : shapes)
+      for (const Shape& b : shapes) {
         // Distances that are no numbers are searched for long.
         if (far > 1e150 && &b != &shapes.front()) continue;
         const Vec3<double> x = far * random.direction();

@@ -19,7 +19,7 @@ using testing::RandomShapes;
 using Long = long double;
 
 /// Distance of a point beyond the support planes of a shape, judged by some directions.
-double outside(const Shape<double>& shape, const Vec3<double>& point, const Vec3<double>& towards,
+double outside(const Shape& shape, const Vec3<double>& point, const Vec3<double>& towards,
                RandomShapes& random) {
   double most = -1e300;
   for (int i = 0; i < 6; ++i) {
@@ -51,10 +51,10 @@ TEST(Swept, no_point_of_a_turning_body_leaves_its_swept_shape) {
   RandomShapes random(5);
   int left_hull = 0;
   for (int k = 0; k < 400; ++k) {
-    const Shape<double> shape = random_shape(k % kinds_of_bodies, 1, random);
+    const Shape shape = random_shape(k % kinds_of_bodies, 1, random);
     const Screw screw(random, random.in(0, 3));
-    const Shape<double> holds = swept(shape, screw.from, screw.to);
-    const Shape<double> hull = swept(shape, screw.from, screw.to, 0);
+    const Shape holds = swept(shape, screw.from, screw.to);
+    const Shape hull = swept(shape, screw.from, screw.to, 0);
     bool has_left = false;
     for (int i = 0; i < 200; ++i) {
       const double s = random.in(0, 1);
@@ -74,7 +74,7 @@ TEST(Swept, no_point_of_a_turning_body_leaves_its_swept_shape) {
 TEST(Swept, the_least_distance_from_an_axis_that_holds_a_shape_is_found) {
   RandomShapes random(6);
   for (int k = 0; k < 300; ++k) {
-    const Shape<double> shape = random_shape(k % kinds_of_bodies, 1, random);
+    const Shape shape = random_shape(k % kinds_of_bodies, 1, random);
     const Vec3<double> axis = random.direction();
     const double most = distance_from_axis(shape, axis);
     double seen = 0;
@@ -84,7 +84,7 @@ TEST(Swept, the_least_distance_from_an_axis_that_holds_a_shape_is_found) {
     }
     ASSERT_GE(most, seen * (1 - 1e-14)) << k;
   }
-  EXPECT_NEAR(distance_from_axis(Cylinder<double>{0.5, 2}, {0, 0, 1}), 0.5, 0.005);
+  EXPECT_NEAR(distance_from_axis(Cylinder{0.5, 2}, {0, 0, 1}), 0.5, 0.005);
 }
 
 /// Two capsules that move like screws, with bounds of their speed and acceleration.
@@ -93,8 +93,8 @@ class MovingCapsules : public MovingPair {
   explicit MovingCapsules(RandomShapes& random)
       : capsule_a_{random.in(0.05, 0.3), random.in(0.1, 1)},
         capsule_b_{random.in(0.05, 0.3), random.in(0.1, 1)},
-        a_{Shape<double>(capsule_a_)},
-        b_{Shape<double>(capsule_b_)},
+        a_{Shape(capsule_a_)},
+        b_{Shape(capsule_b_)},
         of_a_(random, random.in(0, 3)),
         of_b_(random, random.in(0, 3)) {
     of_b_.motion.pose.translation =
@@ -119,7 +119,7 @@ class MovingCapsules : public MovingPair {
 
   /// Computed from the ends and the lines of the two segments, in long double.
   Long true_distance(double s) const {
-    const auto ends = [&](const Screw& screw, const Capsule<double>& capsule) {
+    const auto ends = [&](const Screw& screw, const Capsule& capsule) {
       const Affine<Long> pose = screw.motion.at(s).cast<Long>();
       const Vec3<Long> z(0, 0, capsule.half_height);
       return std::array<Vec3<Long>, 2>{pose(Vec3<Long>(-z)), pose(z)};
@@ -143,7 +143,7 @@ class MovingCapsules : public MovingPair {
   }
 
  private:
-  Capsule<double> capsule_a_, capsule_b_;
+  Capsule capsule_a_, capsule_b_;
   ContactShape a_, b_;
   Screw of_a_, of_b_;
 };

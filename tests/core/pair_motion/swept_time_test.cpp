@@ -19,20 +19,19 @@ struct TwoBodies {
   ContactShape a, b;
   Affine<double> pose_a, pose_b;
 
-  TwoBodies(const Shape<double>& first, const Shape<double>& second, const Vec3<double>& place)
+  TwoBodies(const Shape& first, const Shape& second, const Vec3<double>& place)
       : a(first), b(second), pose_b{Mat3<double>::Identity(), place} {}
   CorePair pair() const { return pair_of(a, pose_a, pose_a.linear, b, pose_b); }
 };
 
-SweptTime swept(const Shape<double>& a, const Shape<double>& b, const Vec3<double>& place,
+SweptTime swept(const Shape& a, const Shape& b, const Vec3<double>& place,
                 const Vec3<double>& velocity, double near, double t_max = 10) {
   const TwoBodies two(a, b, place);
   return swept_time(two.pair(), velocity, t_max, near, nullptr);
 }
 
 struct Bodies {
-  Shape<double> ball = Sphere<double>{1}, capsule = Capsule<double>{1, 1},
-                cylinder = Cylinder<double>{1, 1};
+  Shape ball = Sphere{1}, capsule = Capsule{1, 1}, cylinder = Cylinder{1, 1};
 };
 
 TEST(SweptTime, of_what_touches_at_the_start_closed_forms_do_not_tell) {
@@ -50,7 +49,7 @@ TEST(SweptTime, of_what_touches_at_the_start_closed_forms_do_not_tell) {
 }
 
 TEST(SweptTime, of_two_balls_is_a_hit_only_where_its_bounds_are_near_enough) {
-  const Shape<double> ball = Bodies().ball;
+  const Shape ball = Bodies().ball;
   const SweptTime known = swept(ball, ball, {4, 1, 0}, {-1, 0, 0}, 1e-12);
   ASSERT_EQ(known.status, SweptStatus::hit);
   EXPECT_LE(known.t_hi - known.t_lo, 1e-12);
@@ -59,7 +58,7 @@ TEST(SweptTime, of_two_balls_is_a_hit_only_where_its_bounds_are_near_enough) {
 }
 
 TEST(SweptTime, of_balls_that_would_meet_later_has_the_axis_of_the_end_of_time) {
-  const Shape<double> ball = Bodies().ball;
+  const Shape ball = Bodies().ball;
   const SweptTime early = swept(ball, ball, {4, 1, 0}, {-1, 0, 0}, 1e-12, 1.5);
   ASSERT_EQ(early.status, SweptStatus::miss);
   EXPECT_LT((early.axis - Vec3<double>(2.5, 1, 0).normalized()).norm(), 1e-15);
@@ -68,7 +67,7 @@ TEST(SweptTime, of_balls_that_would_meet_later_has_the_axis_of_the_end_of_time) 
 TEST(SweptTime, of_speeds_that_are_no_numbers_is_not_known) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
                    infinity = std::numeric_limits<double>::infinity();
-  const Shape<double> ball = Bodies().ball;
+  const Shape ball = Bodies().ball;
   for (const Vec3<double>& velocity :
        {Vec3<double>(-infinity, 0, 0), Vec3<double>(infinity, 0, 0),
         Vec3<double>(-1e300, infinity, 0), Vec3<double>(nan, 0, 0), Vec3<double>(0, 0, 0)}) {
@@ -82,7 +81,7 @@ TEST(SweptTime, of_speeds_that_are_no_numbers_is_not_known) {
 TEST(SweptTime, that_is_no_number_lies_between_two_of_them) {
   // Exactly 0.75 times the least number: (0.75 * 2^-54) / 2^1020.
   const double unit = 0x1p-54;
-  const Shape<double> small = Sphere<double>{unit / 2};
+  const Shape small = Sphere{unit / 2};
   const SweptTime found =
       swept(small, small, {1.75 * unit, 0, 0}, {-0x1p1020, 0, 0}, 1e-9 * unit, 1);
   ASSERT_EQ(found.status, SweptStatus::hit);
@@ -95,9 +94,9 @@ TEST(SweptTime, of_closed_forms_is_told_as_exactly_as_rounding_allows) {
   RandomShapes random(33);
   for (int k = 0; k < 300; ++k) {
     const Vec3<double> place = 100 * random.direction();
-    const TwoBodies two(k % 3 == 0 ? testing::random_shape(9, 1, random)
-                                   : Shape<double>(Sphere<double>{random.in(0.3, 1)}),
-                        testing::random_shape(k % 3 == 1 ? 5 : 9, 1, random), place);
+    const TwoBodies two(
+        k % 3 == 0 ? testing::random_shape(9, 1, random) : Shape(Sphere{random.in(0.3, 1)}),
+        testing::random_shape(k % 3 == 1 ? 5 : 9, 1, random), place);
     ASSERT_TRUE(has_swept_closed(two.pair()));
     const Vec3<double> velocity = 0.1 * random.direction() - 0.9 * place;
     const SweptTime found = swept_closed(two.pair(), velocity, 2, 1e-11);
@@ -114,9 +113,9 @@ TEST(SweptTime, of_closed_forms_is_told_as_exactly_as_rounding_allows) {
 ///        .   .
 ///     B
 TEST(SweptTime, of_a_way_right_beside_an_edge_of_the_shadow_is_told) {
-  const Shape<double> point = Point<double>{},
-                      hull = Hull<double>{PointCloud<double>(std::vector<Vec3<double>>{
-                          {0, 3, 1}, {1, -3, -2}, {1, 2.25, 1.5}, {2, -2, -0.75}, {9, 0, 0.25}})};
+  const Shape point = Point{},
+              hull = Hull{PointCloud(std::vector<Vec3<double>>{
+                  {0, 3, 1}, {1, -3, -2}, {1, 2.25, 1.5}, {2, -2, -0.75}, {9, 0, 0.25}})};
   const Vec3<double> aside = Vec3<double>(0, 2, -3).normalized();
   for (const double beside : {1e-14, 1.5e-14, 2e-14, 1e-9, 0.1}) {
     const SweptTime found =
@@ -129,11 +128,11 @@ TEST(SweptTime, of_a_way_right_beside_an_edge_of_the_shadow_is_told) {
 
 /// Each new support point of the shadow is a new corner of it, or the search ends.
 TEST(SweptTime, of_a_way_next_to_the_other_body_is_given_up_by_the_time_all_corners_are_seen) {
-  const Shape<double> point = Point<double>{};
+  const Shape point = Point{};
   RandomShapes random(34);
   int open = 0;
   for (int k = 0; k < 300; ++k) {
-    const Shape<double> hull = random.hull(8, 1);
+    const Shape hull = random.hull(8, 1);
     // The point furthest aside passes the other by half of the tolerance.
     const Vec3<double> aside = Vec3<double>(0, random.in(-1, 1), random.in(-1, 1)).normalized();
     Vec3<double> place = -hull.support(aside) - 0.005 * aside;
@@ -161,10 +160,10 @@ TEST(SweptTime, that_nothing_is_known_of_leaves_the_memory_as_it_is) {
 /// Beyond them sixth powers of an ellipsoid's lengths were infinite, and it was passed by.
 TEST(SweptTime, of_any_size_is_the_same_or_not_told) {
   RandomShapes random(35);
-  const Shape<double> ellipsoid = Ellipsoid<double>{{1, 0.75, 0.5}};
+  const Shape ellipsoid = Ellipsoid{{1, 0.75, 0.5}};
   for (const int power : {-500, -300, -165, -158, 0, 158, 165, 175, 300, 500}) {
     const double scale = std::ldexp(1.0, power);
-    const Shape<double> scaled = Ellipsoid<double>{{scale, 0.75 * scale, 0.5 * scale}};
+    const Shape scaled = Ellipsoid{{scale, 0.75 * scale, 0.5 * scale}};
     for (int k = 0; k < 20; ++k) {
       const Vec3<double> place = 4 * random.direction(),
                          velocity = 0.5 * random.direction() - place;

@@ -23,8 +23,7 @@ Affine<double> pose_of_pair(testing::Random& random, double reach) {
 }
 
 ContactShape triangle(const TriangleMesh& mesh, std::uint32_t i) {
-  return ContactShape(
-      Shape<double>(Triangle<double>{{mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)}}));
+  return ContactShape(Shape(Triangle{{mesh.corner(i, 0), mesh.corner(i, 1), mesh.corner(i, 2)}}));
 }
 
 /// The least of all pairs of parts, each computed by itself; no depth.
@@ -52,11 +51,9 @@ TEST(MeshPairs, have_the_least_distance_of_all_their_parts) {
                     ball = testing::bumpy_ball(7, 9).shared();
   const std::vector<ContactShape> of_ring = parts(*ring), of_ball = parts(*ball);
   const std::vector<ContactShape> shapes = {
-      ContactShape(Shape<double>(Box<double>{{0.2, 0.3, 0.1}})),
-      ContactShape(Shape<double>(Sphere<double>{0.15})),
-      ContactShape(Shape<double>(Cone<double>{0.2, 0.2})),
-      ContactShape(
-          Shape<double>(Rounded<double>{0.05, Shape<double>(Box<double>{{0.2, 0.2, 0.1}})}))};
+      ContactShape(Shape(Box{{0.2, 0.3, 0.1}})), ContactShape(Shape(Sphere{0.15})),
+      ContactShape(Shape(Cone{0.2, 0.2})),
+      ContactShape(Shape(Rounded{0.05, Shape(Box{{0.2, 0.2, 0.1}})}))};
   testing::Random random(1);
   int apart = 0, crossing = 0, within = 0;
   for (int i = 0; i < testing::number_of_cases(120); ++i) {
@@ -132,7 +129,7 @@ TEST(MeshPairs, of_the_least_sizes_have_bounds_that_hold) {
 
 TEST(MeshPairs, what_is_within_a_closed_mesh_overlaps_it_and_in_a_hole_does_not) {
   const MeshPointer ring = testing::torus(40, 24).shared();
-  const ContactShape ball{Shape<double>(Sphere<double>{0.1})};
+  const ContactShape ball{Shape(Sphere{0.1})};
   const auto at = [](double x) {
     Affine<double> pose;
     pose.translation.x() = x;
@@ -160,7 +157,7 @@ TEST(MeshPairs, what_is_within_a_closed_mesh_overlaps_it_and_in_a_hole_does_not)
 TEST(MeshPairs, first_touch_when_a_part_is_first_touched) {
   const MeshPointer ring = testing::torus(12, 8).shared();
   const std::vector<ContactShape> of_ring = parts(*ring);
-  const ContactShape box{Shape<double>(Box<double>{{0.2, 0.3, 0.1}})};
+  const ContactShape box{Shape(Box{{0.2, 0.3, 0.1}})};
   testing::Random random(3);
   int hits = 0, misses = 0;
   for (int i = 0; i < testing::number_of_cases(60); ++i) {
@@ -206,8 +203,7 @@ TEST(MeshPairs, of_many_bodies_are_those_of_each_two) {
   const MeshPointer ring = testing::torus(20, 12).shared();
   std::vector<ContactBody> bodies;
   for (int i = 0; i < 30; ++i) {
-    bodies.push_back(
-        {ContactShape(Shape<double>(Box<double>{{0.3, 0.2, 0.4}})), pose_of_pair(random, 3)});
+    bodies.push_back({ContactShape(Shape(Box{{0.3, 0.2, 0.4}})), pose_of_pair(random, 3)});
     if (i % 2 == 0) bodies.back().mesh = ring;
   }
   const ContactWorld world(bodies);
@@ -224,7 +220,7 @@ TEST(MeshPairs, of_many_bodies_are_those_of_each_two) {
     }
   EXPECT_EQ(pairs.size(), expected);
   EXPECT_GT(expected, 10u);
-  const ContactBody at{ContactShape(Shape<double>(Sphere<double>{0.01})), {}};
+  const ContactBody at{ContactShape(Shape(Sphere{0.01})), {}};
   const std::vector<NearPair> nearest = nearest_bodies(at, world, 5);
   ASSERT_EQ(nearest.size(), 5u);
   std::vector<double> all;
@@ -247,7 +243,7 @@ TEST(MeshPairs, of_many_bodies_are_those_of_each_two) {
 
 TEST(MeshPairs, are_above_a_half_space_by_their_lowest_vertex) {
   const MeshPointer block = testing::block({1, 2, 3}).shared();
-  const ContactShape box{Shape<double>(Box<double>{{1, 2, 3}})};
+  const ContactShape box{Shape(Box{{1, 2, 3}})};
   testing::Random random(5);
   for (int i = 0; i < 100; ++i) {
     const Affine<double> pose = pose_of_pair(random, 4);
@@ -263,7 +259,7 @@ TEST(MeshPairs, are_above_a_half_space_by_their_lowest_vertex) {
 
 TEST(MeshPairs, change_as_central_differences_say) {
   const MeshPointer ring = testing::torus(16, 10).shared();
-  const ContactShape box{Shape<double>(Box<double>{{0.2, 0.3, 0.1}})};
+  const ContactShape box{Shape(Box{{0.2, 0.3, 0.1}})};
   testing::Random random(6);
   int checked = 0;
   for (int i = 0; i < 60; ++i) {

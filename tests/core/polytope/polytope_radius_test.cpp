@@ -16,7 +16,7 @@ TEST(PolytopeRadius, holds_every_point_however_norms_are_rounded) {
   for (int round = 0; round < 200; ++round) {
     std::vector<Vec3<double>> points;
     for (int i = 0; i < 8; ++i) points.emplace_back(any(random), any(random), any(random));
-    const PointCloud<double> cloud(points);
+    const PointCloud cloud(points);
     const auto polytope = Polytope::of(cloud, Vec3<double>(0, 0, 0), 1, 0);
     if (!polytope) continue;
     long double furthest = 0;
@@ -32,7 +32,7 @@ TEST(PolytopeRadius, that_is_no_number_leaves_no_polytope) {
   for (const double x : {-1.0, 1.0})
     for (const double y : {-1.0, 1.0})
       for (const double z : {-1.0, 1.0}) points.emplace_back(x, y, z);
-  const PointCloud<double> cloud(points);
+  const PointCloud cloud(points);
   EXPECT_TRUE(Polytope::of(cloud, Vec3<double>(0, 0, 0), 1e100, 0));
   EXPECT_FALSE(Polytope::of(cloud, Vec3<double>(0, 0, 0), 1e200, 0));
 }

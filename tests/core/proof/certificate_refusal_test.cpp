@@ -18,7 +18,7 @@ using V = Vec3<double>;
 // All shapes whose insides were certified lay around the origin.
 TEST(Certificate, of_an_origin_within_a_shape_is_that_shapes_wherever_it_is) {
   const V where(40, -30, 20);
-  const Shape<double> ball = mapped(Sphere<double>{2}, moved(where));
+  const Shape ball = mapped(Sphere{2}, moved(where));
   const SupportFunction support = supports_of(ball);
   for (const V& from : {where, V(where + V(1, -1, 0.5)), V(-where), V(where + V(1.5, 1.5, 0))}) {
     const Ray<double> ray{from, V(0, 0, 1)};
@@ -35,10 +35,10 @@ TEST(Certificate, of_an_origin_within_a_shape_is_that_shapes_wherever_it_is) {
 
 // The plane touches a flat shape with both normals.
 TEST(Certificate, of_a_flat_shape_hit_from_behind_its_normal_is_refused) {
-  const Shape<double> disk = Disk<double>{1};
+  const Shape disk = Disk{1};
   const SupportFunction support = supports_of(disk);
   const Ray<double> ray{{0.25, 0.5, 2}, {0.1, 0, -1}};
-  Claim claim = claim_of(cast_ray(PreparedShape<double>(disk), ray));
+  Claim claim = claim_of(cast_ray(PreparedShape(disk), ray));
   ASSERT_EQ(claim.status, Status::hit);
   for (const double side : {1.0, -1.0}) {
     claim.normal = {0, 0, side};
@@ -48,12 +48,12 @@ TEST(Certificate, of_a_flat_shape_hit_from_behind_its_normal_is_refused) {
 
 // A support mapping's result for no direction is no proof.
 TEST(Certificate, with_a_support_point_along_no_direction_is_refused) {
-  const Shape<double> ball = Sphere<double>{2};
+  const Shape ball = Sphere{2};
   const SupportFunction support = [&](const V& n) {
     return n.allFinite() && !n.isZero(0) ? ball.support(n) : V(0, 0, 2);
   };
   const Ray<double> ray{{0, 0, 5}, {0, 0, -1}};  // hits at (0, 0, 2)
-  const Claim claim = claim_of(cast_ray(PreparedShape<double>(ball), ray));
+  const Claim claim = claim_of(cast_ray(PreparedShape(ball), ray));
   const Certificate right = certify(support, ray, claim);
   ASSERT_TRUE(check_certificate(support, ray, claim, right).holds);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -70,12 +70,12 @@ TEST(Certificate, with_a_support_point_along_no_direction_is_refused) {
 
 // The checker's allowance could be ten times as wide.
 TEST(Certificate, a_hit_is_refused_that_is_two_hundred_roundings_off) {
-  const Shape<double> ball = Sphere<double>{2};
+  const Shape ball = Sphere{2};
   const SupportFunction support = supports_of(ball);
   const Ray<double> ray{{-3, 0, 0}, {1, 0, 0}};                        // enters at t = 1
   const double rounding = 2 * std::numeric_limits<double>::epsilon();  // of the radius
   for (const double roundings : {-200.0, -10.0, 0.0, 10.0, 200.0}) {
-    Claim claim = claim_of(cast_ray(PreparedShape<double>(ball), ray));
+    Claim claim = claim_of(cast_ray(PreparedShape(ball), ray));
     claim.t_offset += roundings * rounding;
     EXPECT_EQ(check_certificate(support, ray, claim, certify(support, ray, claim)).holds,
               std::abs(roundings) < 100)
@@ -85,10 +85,10 @@ TEST(Certificate, a_hit_is_refused_that_is_two_hundred_roundings_off) {
 
 // The lateness of a claim was not reported.
 TEST(Certificate, tells_how_far_beyond_its_bounds_a_late_hit_is) {
-  const Shape<double> ball = Sphere<double>{2};
+  const Shape ball = Sphere{2};
   const SupportFunction support = supports_of(ball);
   const Ray<double> ray{{-3, 0, 0}, {1, 0, 0}};
-  const Claim right = claim_of(cast_ray(PreparedShape<double>(ball), ray));
+  const Claim right = claim_of(cast_ray(PreparedShape(ball), ray));
   const Certificate certificate = certify(support, ray, right);
   for (const double late : {0.0, 1e-9, 1e-3, 0.5}) {
     Claim claim = right;
@@ -99,10 +99,10 @@ TEST(Certificate, tells_how_far_beyond_its_bounds_a_late_hit_is) {
 
 // Support points on the right plane, but off the ray, were accepted as a proof.
 TEST(Certificate, whose_support_points_span_a_spot_beside_the_ray_is_refused) {
-  const Shape<double> box = Box<double>{{1, 2, 3}};
+  const Shape box = Box{{1, 2, 3}};
   const SupportFunction support = supports_of(box);
   const Ray<double> ray{{-5, 0.5, 0.25}, {1, 0, 0}};
-  const Claim claim = claim_of(cast_ray(PreparedShape<double>(box), ray));
+  const Claim claim = claim_of(cast_ray(PreparedShape(box), ray));
   Certificate certificate = certify(support, ray, claim);
   ASSERT_TRUE(check_certificate(support, ray, claim, certificate).holds);
   certificate.plane = {-1, 0, 0};
@@ -115,7 +115,7 @@ TEST(Certificate, whose_support_points_span_a_spot_beside_the_ray_is_refused) {
 
 // With weights below zero, support points span spots outside the shape.
 TEST(Certificate, with_negative_weights_is_refused) {
-  const Shape<double> box = Box<double>{{1, 2, 3}};
+  const Shape box = Box{{1, 2, 3}};
   const SupportFunction support = supports_of(box);
   const Ray<double> beside{{-5, 3, 3}, {1, 0, 0}};
   Claim claim;
@@ -131,8 +131,8 @@ TEST(Certificate, with_negative_weights_is_refused) {
 
 // All is 0 when divided by an infinite sum: the middle of the bounds was spanned by any corners.
 TEST(Certificate, whose_weights_have_no_finite_sum_is_refused) {
-  const PointCloud<double> corners{{V(0, 0, 0), V(1, 0, 0), V(0, 1, 0), V(0, 0, 1)}};
-  const Shape<double> corner = Hull<double>{corners};
+  const PointCloud corners{{V(0, 0, 0), V(1, 0, 0), V(0, 1, 0), V(0, 0, 1)}};
+  const Shape corner = Hull{corners};
   const SupportFunction support = supports_of(corner);
   const Ray<double> ray{{0.5, 0.5, 0.5}, {0, 0, 1}};  // from the middle of the bounds, outside
   Claim claim;
@@ -149,10 +149,10 @@ TEST(Certificate, whose_weights_have_no_finite_sum_is_refused) {
 
 // The certificate is that of the whole ray: it is the ray's end that refuses.
 TEST(Certificate, of_a_hit_beyond_the_rays_end_is_refused) {
-  const Shape<double> ball = Sphere<double>{2};
+  const Shape ball = Sphere{2};
   const SupportFunction support = supports_of(ball);
   Ray<double> ray{{-3, 1, 0.5}, {0.5, 0, 0}};
-  const Claim claim = claim_of(cast_ray(PreparedShape<double>(ball), ray));
+  const Claim claim = claim_of(cast_ray(PreparedShape(ball), ray));
   ASSERT_EQ(claim.status, Status::hit);
   const Certificate certificate = certify(support, ray, claim);
   const double t = claim.t_base + claim.t_offset;
@@ -167,10 +167,10 @@ TEST(Certificate, of_a_hit_beyond_the_rays_end_is_refused) {
 
 // The support points have to lie as high as that plane.
 TEST(Certificate, without_a_plane_of_its_own_is_judged_by_the_claimed_one) {
-  const Shape<double> ball = Sphere<double>{2};
+  const Shape ball = Sphere{2};
   const SupportFunction support = supports_of(ball);
   const Ray<double> ray{{-3, 0, 0}, {1, 0, 0}};
-  const Claim claim = claim_of(cast_ray(PreparedShape<double>(ball), ray));
+  const Claim claim = claim_of(cast_ray(PreparedShape(ball), ray));
   Certificate certificate;
   certificate.spanning[0] = {{-1, 0, 0}, 1};
   EXPECT_TRUE(check_certificate(support, ray, claim, certificate).holds);
@@ -181,7 +181,7 @@ TEST(Certificate, without_a_plane_of_its_own_is_judged_by_the_claimed_one) {
 
 // The plane touches the box, and the ray crosses it, but outside of the box.
 TEST(Certificate, of_a_hit_where_a_faces_plane_is_crossed_beside_it_is_refused) {
-  const Shape<double> box = Box<double>{{1, 1, 1}};
+  const Shape box = Box{{1, 1, 1}};
   const SupportFunction support = supports_of(box);
   const Ray<double> ray{{-3, -1.5, -0.5}, {1, 0.2, 0.5}};  // enters at (-0.5, -1, 0.75)
   Certificate certificate;
@@ -202,7 +202,7 @@ TEST(Certificate, of_a_hit_where_a_faces_plane_is_crossed_beside_it_is_refused) 
 
 // In a face, the planes do not locate the ray: the claimed and the spanned points do.
 TEST(Certificate, of_a_ray_in_a_face_is_of_what_lies_between_its_ends) {
-  const Shape<double> box = Box<double>{{1, 1, 1}};
+  const Shape box = Box{{1, 1, 1}};
   const SupportFunction support = supports_of(box);
   const Ray<double> ray{{0, 0, 1}, {1, 0, 0}, 0.5};
   Claim claim;
@@ -233,7 +233,7 @@ TEST(Certificate, of_a_ray_in_a_face_is_of_what_lies_between_its_ends) {
 
 // All of the ray lies in that plane, in the air as well.
 TEST(Certificate, of_a_hit_in_a_faces_plane_before_or_behind_the_face_is_refused) {
-  const Shape<double> box = Box<double>{{1, 1, 1}};
+  const Shape box = Box{{1, 1, 1}};
   const SupportFunction support = supports_of(box);
   const Ray<double> ray{{-3, 0, 1}, {1, 0, 0}};
   Claim claim;
@@ -255,7 +255,7 @@ TEST(Certificate, of_a_hit_in_a_faces_plane_before_or_behind_the_face_is_refused
 
 // The squares of their lengths are no numbers, so that their unit vectors were 0.
 TEST(Certificate, of_directions_too_long_or_too_short_is_refused) {
-  const Shape<double> ball = Sphere<double>{1};
+  const Shape ball = Sphere{1};
   const SupportFunction support = supports_of(ball);
   const Ray<double> at_it{{-3, 0, 0}, {1, 0, 0}}, beside{{-3, 0, 2}, {1, 0, 0}};
   for (const double length : {1e-200, 1e-100, 1.0, 1e100, 1e200}) {
@@ -279,7 +279,7 @@ TEST(Certificate, of_directions_too_long_or_too_short_is_refused) {
 
 // In no direction everything has the height 0, and 0 separates from 0.
 TEST(Certificate, of_a_miss_without_a_plane_is_refused) {
-  const Shape<double> ball = Sphere<double>{1};
+  const Shape ball = Sphere{1};
   const SupportFunction support = supports_of(ball);
   Claim claim;
   claim.status = Status::miss;
@@ -299,7 +299,7 @@ TEST(Certificate, of_a_miss_without_a_plane_is_refused) {
 
 // From there the ray's parameters have no digits for the shape, nor has the segment near it.
 TEST(Certificate, of_a_ray_from_too_far_away_is_refused) {
-  const Shape<double> ball = Sphere<double>{1};
+  const Shape ball = Sphere{1};
   const SupportFunction support = supports_of(ball);
   for (const double away : {1e3, 1e12, 1e20, 1e24}) {
     const Ray<double> ray{{-1.1 * away, 0.5, 1.1 * away}, {1.1, 0, -1.1}};

@@ -15,40 +15,39 @@ using V = Vec3<double>;
 using testing::Random;
 
 /// A needle about the origin along `axis`, of the k-th kind.
-Shape<double> needle(int k, const V& axis, double thin, Random& random) {
+Shape needle(int k, const V& axis, double thin, Random& random) {
   const auto near = [&](double along) -> V { return along * axis + thin * random.in_cube(); };
   Affine<double> turned;
   turned.linear = random.rotation();
-  const auto placed = [&](const Shape<double>& shape) -> Shape<double> {
-    return Transform<double>{Nested<double>(shape), AffineMap<double>(turned)};
+  const auto placed = [&](const Shape& shape) -> Shape {
+    return Transform{Nested(shape), AffineMap(turned)};
   };
   switch (k) {
     case 0:
-      return Triangle<double>{near(1), near(-1), near(random.uniform(-1, 1))};
+      return Triangle{near(1), near(-1), near(random.uniform(-1, 1))};
     case 1: {
       std::vector<V> points;
       for (int i = 0; i < 7; ++i) points.push_back(near(random.uniform(-1, 1)));
-      return Hull<double>{PointCloud<double>(points)};
+      return Hull{PointCloud(points)};
     }
     case 2:
-      return Rounded<double>{
-          thin, Nested<double>(Triangle<double>{axis, -axis, near(random.uniform(-1, 1))})};
+      return Rounded{thin, Nested(Triangle{axis, -axis, near(random.uniform(-1, 1))})};
     case 3:
-      return placed(Box<double>{{thin, thin * random.uniform(0.5, 2), 1}});
+      return placed(Box{{thin, thin * random.uniform(0.5, 2), 1}});
     case 4:
-      return placed(Capsule<double>{thin, 1});
+      return placed(Capsule{thin, 1});
     case 5:
-      return placed(Ellipsoid<double>{{thin, 2 * thin, 1}});
+      return placed(Ellipsoid{{thin, 2 * thin, 1}});
     case 6:
-      return placed(Cylinder<double>{thin, 1});
+      return placed(Cylinder{thin, 1});
     default:
-      return placed(Cone<double>{thin, 1});
+      return placed(Cone{thin, 1});
   }
 }
 constexpr int kinds = 8, kinds_of_points = 3;
 
 /// Towards a point of the needle, from anywhere, from nearby, or nearly along it.
-Ray<double> ray_at(const Shape<double>& shape, const V& axis, double thin, int i, Random& random) {
+Ray<double> ray_at(const Shape& shape, const V& axis, double thin, int i, Random& random) {
   const double share = random.uniform();
   const V target =
       share * shape.support(random.direction()) + (1 - share) * shape.support(random.direction());
@@ -75,9 +74,9 @@ Counts ask_needles(bool of_points, int rays) {
     const V axis = random.direction();
     const int k = of_points ? random.below(kinds_of_points)
                             : kinds_of_points + random.below(kinds - kinds_of_points);
-    const Shape<double> shape = needle(k, axis, thin, random);
+    const Shape shape = needle(k, axis, thin, random);
     const Ray<double> ray = ray_at(shape, axis, thin, i, random);
-    const CastResult<double> result = cast_ray(PreparedShape<double>(shape), ray);
+    const CastResult<double> result = cast_ray(PreparedShape(shape), ray);
     counts.hits += result.found();
     counts.exhausted += result.status == Status::exhausted;
     if (result.status == Status::exhausted) continue;

@@ -3,11 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
-#include "core/derived/convert.h"
 #include "core/derived/shape_bounds.h"
 #include "core/query/bounds_cast.h"
 #include "tests/support/random.h"
-#include "tests/support/rounded.h"
 
 namespace minkray::testing {
 namespace {
@@ -40,47 +38,45 @@ double room(const Vec3<double>& half_extents, const Vec3<Long>& o, const Vec3<Lo
 }
 
 /// A box somewhere, as a mapped shape: any will do, only its bounds are used.
-template <class T>
 struct MappedBox {
   Vec3<double> half_extents;
   Affine<double> pose;
-  PreparedShape<T> prepared;
+  PreparedShape prepared;
 
   MappedBox(const Vec3<double>& h, const Affine<double>& map)
-      : half_extents(h.cast<T>().template cast<double>()),
-        pose{map.linear.cast<T>().template cast<double>(),
-             map.translation.cast<T>().template cast<double>()},
-        prepared(Shape<T>(Box<T>{h.cast<T>()}),
-                 Affine<T>{map.linear.cast<T>(), map.translation.cast<T>()}) {}
+      : half_extents(h.cast<double>().cast<double>()),
+        pose{map.linear.cast<double>().cast<double>(),
+             map.translation.cast<double>().cast<double>()},
+        prepared(Shape(Box{h.cast<double>()}),
+                 Affine<double>{map.linear.cast<double>(), map.translation.cast<double>()}) {}
 
-  BoundsCast<T> cast(const Ray<T>& ray) const {
+  BoundsCast<double> cast(const Ray<double>& ray) const {
     return cast_at_box(prepared.line_to_inner(ray), prepared.inner_half_extents(),
                        prepared.inner_ball().radius, true);
   }
 };
 
 /// Rays about a box that meet it or pass it by, origins `distance` away.
-template <class T>
 void check_against_slabs(const Affine<double>& map, double distance) {
   Random random(71);
   int open = 0, passes = 0;
   for (int i = 0; i < 5000; ++i) {
-    const MappedBox<T> box({1, random.uniform(0.01, 1), random.uniform(0.01, 1)}, map);
+    const MappedBox box({1, random.uniform(0.01, 1), random.uniform(0.01, 1)}, map);
     Vec3<double> d = random.direction();
     if (i % 5 == 0) d[random.below(3)] = 0;
     if (i % 25 == 0) d = Vec3<double>::Unit(random.below(3));
     d *= std::pow(10.0, random.uniform(-9, 9));
     const Vec3<double> o = random.in_cube() - d.normalized() * distance;
-    const Ray<T> ray{map(o).cast<T>(), Vec3<double>(map.linear * d).cast<T>()};
-    const BoundsCast<T> bounds = box.cast(ray);
+    const Ray<double> ray{map(o).cast<double>(), Vec3<double>(map.linear * d).cast<double>()};
+    const BoundsCast<double> bounds = box.cast(ray);
     ASSERT_NE(bounds.open, bounds.miss);
-    const Ray<double> known = in_double(ray);
-    const Mat3<Long> back = box.pose.linear.template cast<Long>().inverse();
-    const Vec3<Long> from = back * (known.origin - box.pose.translation).template cast<Long>();
-    const Vec3<Long> along = (back * known.direction.template cast<Long>()).normalized();
+    const Ray<double> known = ray;
+    const Mat3<Long> back = box.pose.linear.cast<Long>().inverse();
+    const Vec3<Long> from = back * (known.origin - box.pose.translation).cast<Long>();
+    const Vec3<Long> along = (back * known.direction.cast<Long>()).normalized();
     const double left = room(box.half_extents, from, along);
     // A line so near may get either result: rounding, as a part of the thinnest side.
-    const double rounding = 200 * std::numeric_limits<T>::epsilon() * distance /
+    const double rounding = 200 * std::numeric_limits<double>::epsilon() * distance /
                             box.half_extents.minCoeff() / std::abs(map.linear.determinant());
     open += bounds.open;
     passes += bounds.miss;
@@ -91,12 +87,12 @@ void check_against_slabs(const Affine<double>& map, double distance) {
     }
     if (bounds.open) continue;
     // A plane between the line and the box.
-    const Vec3<double> n = bounds.normal.template cast<double>();
-    EXPECT_NEAR(n.norm(), 1, 8 * std::numeric_limits<T>::epsilon());
-    const Vec3<double> r = along.template cast<double>();
-    const Vec3<double> s = (from - along * from.dot(along)).template cast<double>();
+    const Vec3<double> n = bounds.normal.cast<double>();
+    EXPECT_NEAR(n.norm(), 1, 8 * std::numeric_limits<double>::epsilon());
+    const Vec3<double> r = along.cast<double>();
+    const Vec3<double> s = (from - along * from.dot(along)).cast<double>();
     EXPECT_GT(n.dot(s), n.cwiseAbs().dot(box.half_extents));
-    EXPECT_LE(std::abs(n.dot(r)), 64 * std::numeric_limits<T>::epsilon());
+    EXPECT_LE(std::abs(n.dot(r)), 64 * std::numeric_limits<double>::epsilon());
   }
   EXPECT_GT(open, 500);
   EXPECT_GT(passes, 500);
@@ -105,29 +101,25 @@ void check_against_slabs(const Affine<double>& map, double distance) {
 const Affine<double> as_it_is{Mat3<double>::Identity(), {0, 0, 0}};
 
 TEST(BoundsCast, tells_lines_that_pass_by_the_box) {
-  check_against_slabs<double>(as_it_is, 4);
-  check_against_slabs<float>(as_it_is, 4);
+  check_against_slabs(as_it_is, 4);
 }
 
 TEST(BoundsCast, is_never_wrong_from_afar) {
-  check_against_slabs<double>(as_it_is, 1e5);
-  check_against_slabs<float>(as_it_is, 1e3);
+  check_against_slabs(as_it_is, 1e5);
 }
 
 TEST(BoundsCast, tells_them_under_a_map) {
   Mat3<double> sheared;
   sheared << 1, 0.5, 0, -0.3, 0.8, 0.2, 0, 0.4, 1.5;
-  check_against_slabs<double>({sheared, {3, -2, 5}}, 4);
-  check_against_slabs<float>({sheared, {3, -2, 5}}, 4);
+  check_against_slabs({sheared, {3, -2, 5}}, 4);
 }
 
 /// Lines through points of the box's edges that just touch it, or miss by rounding.
-template <class T>
 void check_edges(const Affine<double>& map) {
   Random random(79);
   int touch = 0;
   for (int i = 0; i < 20000; ++i) {
-    const MappedBox<T> box({1, random.uniform(0.01, 1), random.uniform(0.01, 1)}, map);
+    const MappedBox box({1, random.uniform(0.01, 1), random.uniform(0.01, 1)}, map);
     const int along_edge = random.below(3);
     Vec3<double> at = box.half_extents;
     at[along_edge] *= random.uniform(-1, 1);
@@ -135,12 +127,12 @@ void check_edges(const Affine<double>& map) {
     outward[along_edge] = 0;
     const Vec3<double> d = outward.cross(random.direction());
     const Vec3<double> o = at - d.normalized() * random.uniform(1, 4);
-    const Ray<T> ray{map(o).cast<T>(), Vec3<double>(map.linear * d).cast<T>()};
-    const Ray<double> known = in_double(ray);
-    const Mat3<Long> back = box.pose.linear.template cast<Long>().inverse();
+    const Ray<double> ray{map(o).cast<double>(), Vec3<double>(map.linear * d).cast<double>()};
+    const Ray<double> known = ray;
+    const Mat3<Long> back = box.pose.linear.cast<Long>().inverse();
     const double left =
-        room(box.half_extents, back * (known.origin - box.pose.translation).template cast<Long>(),
-             (back * known.direction.template cast<Long>()).normalized());
+        room(box.half_extents, back * (known.origin - box.pose.translation).cast<Long>(),
+             (back * known.direction.cast<Long>()).normalized());
     if (left < 0) continue;
     ++touch;
     ASSERT_TRUE(box.cast(ray).open) << i << ": " << left;
@@ -149,42 +141,40 @@ void check_edges(const Affine<double>& map) {
 }
 
 TEST(BoundsCast, leaves_lines_that_touch_an_edge) {
-  check_edges<double>(as_it_is);
-  check_edges<float>(as_it_is);
+  check_edges(as_it_is);
   Mat3<double> turned = Random(81).rotation();
   turned.col(2) *= 0.2;
-  check_edges<double>({turned, {0.1, 0.2, 0.3}});
-  check_edges<float>({turned, {0.1, 0.2, 0.3}});
+  check_edges({turned, {0.1, 0.2, 0.3}});
 }
 
 /// Far from its own origin a shape's centre is rounded coarsely.
 TEST(BoundsCast, holds_shapes_that_are_off_their_own_origin) {
-  for (const float low : {16.0f, 100.0f, 1000.0f, 1e5f}) {
-    const float ulp = std::nextafter(low, 2 * low) - low, high = low + 16385 * ulp;
-    const Shape<float> shape = Triangle<float>{
-        {Vec3<float>(low, low, low), Vec3<float>(high, low, low), Vec3<float>(high, high, low)}};
-    const PreparedShape<float> prepared(shape);
-    const Ray<float> ray{{high, (low + high) / 2, low + 10}, {0, 0, -1}};
+  for (const double low : {16.0, 100.0, 1000.0, 1e5}) {
+    const double ulp = std::nextafter(low, 2 * low) - low, high = low + 16385 * ulp;
+    const Shape shape = Triangle{
+        {Vec3<double>(low, low, low), Vec3<double>(high, low, low), Vec3<double>(high, high, low)}};
+    const PreparedShape prepared(shape);
+    const Ray<double> ray{{high, (low + high) / 2, low + 10}, {0, 0, -1}};
     EXPECT_NE(cast_ray(prepared, ray).status, Status::miss) << low;
   }
 }
 
 TEST(BoundsCast, leaves_what_it_cannot_tell) {
-  const MappedBox<float> box({1, 0.5, 0.25}, as_it_is);
-  const Vec3<float> past(0, 2, 0), x = Vec3<float>::UnitX();
+  const MappedBox box({1, 0.5, 0.25}, as_it_is);
+  const Vec3<double> past(0, 2, 0), x = Vec3<double>::UnitX();
   EXPECT_TRUE(box.cast({past, x}).miss);
-  EXPECT_TRUE(box.cast({past, Vec3<float>::Zero()}).open);
-  EXPECT_TRUE(box.cast({past, x * 1e-38f}).open) << "digits are lost";
-  const float infinity = std::numeric_limits<float>::infinity();
+  EXPECT_TRUE(box.cast({past, Vec3<double>::Zero()}).open);
+  EXPECT_TRUE(box.cast({past, x * 1e-308}).open) << "digits are lost";
+  const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_TRUE(box.cast({past, x * infinity}).open);
   EXPECT_TRUE(box.cast({past * infinity, x}).open);
-  EXPECT_TRUE(box.cast({past * 1e30f, x * 1e30f}).open) << "overflows";
-  const float nan = std::nanf("");
+  EXPECT_TRUE(box.cast({past * 1e250, x * 1e250}).open) << "overflows";
+  const double nan = std::nan("");
   EXPECT_TRUE(box.cast({{nan, 2, 0}, x}).open);
   EXPECT_TRUE(box.cast({{0, nan, 2}, x}).open);
   EXPECT_TRUE(box.cast({{0, 2, nan}, x}).open);
-  const MappedBox<float> cube({1, 1, 1}, as_it_is);
-  EXPECT_TRUE(cube.cast({{0, -356.57901f, -183.640625f}, {0, 1.85347219e36f, 9.5351664e35f}}).open)
+  const MappedBox cube({1, 1, 1}, as_it_is);
+  EXPECT_TRUE(cube.cast({{0, -356.57901, -183.640625}, {0, 9.7921e305, 5.0375e305}}).open)
       << "one product overflows, the other does not";
 }
 
@@ -206,14 +196,12 @@ TEST(BoundsCast, tells_rays_that_end_before_the_ball_or_begin_behind_it) {
 }
 
 TEST(BoundsCast, spares_the_shape_itself) {
-  const PreparedShape<float> needle(
-      convert<float>(Shape<double>(Ellipsoid<double>{{1, 0.03, 0.001}})));
+  const PreparedShape needle(Shape(Ellipsoid{{1, 0.03, 0.001}}));
   Random random(73);
   int asked = 0;
   for (int i = 0; i < 2000; ++i) {
     const Vec3<double> at = random.in_cube(), d = random.direction();
-    const CastResult<float> result =
-        cast_ray(needle, Ray<float>{(at - 4 * d).cast<float>(), d.cast<float>()});
+    const CastResult<double> result = cast_ray(needle, Ray<double>{at - 4 * d, d});
     asked += result.supports > 0;
   }
   EXPECT_LT(asked, 200);

@@ -15,8 +15,7 @@ __extension__ using Quad = __float128;
 using QuadPoint = std::array<Quad, 3>;
 
 /// origin + t * direction, from `centre`.
-template <class T>
-QuadPoint along(const Ray<T>& ray, Quad t, const Vec3<T>& centre) {
+QuadPoint along(const Ray<double>& ray, Quad t, const Vec3<double>& centre) {
   QuadPoint p;
   for (int k = 0; k < 3; ++k)
     p[static_cast<std::size_t>(k)] =
@@ -34,17 +33,15 @@ double size_of(const QuadPoint& p) {
 
 /// The line's point that is nearest to the centre, from there. The first step is to a number of T:
 /// its products with the direction are exact.
-template <class T>
-QuadPoint closest_approach(const Ray<T>& ray, T first_step, const Vec3<T>& centre) {
+QuadPoint closest_approach(const Ray<double>& ray, double first_step, const Vec3<double>& centre) {
   QuadPoint at = along(ray, Quad(first_step), centre);
-  const QuadPoint way = along<T>({{0, 0, 0}, ray.direction}, Quad(1), {0, 0, 0});
+  const QuadPoint way = along({{0, 0, 0}, ray.direction}, Quad(1), {0, 0, 0});
   const Quad left = -dot(at, way) / dot(way, way);
   for (std::size_t k = 0; k < 3; ++k) at[k] += left * way[k];
   return at;
 }
 
-template <class T>
-double distance(const Vec3<T>& s, const QuadPoint& p) {
+double distance(const Vec3<double>& s, const QuadPoint& p) {
   QuadPoint apart;
   for (int k = 0; k < 3; ++k)
     apart[static_cast<std::size_t>(k)] = Quad(s[k]) - p[static_cast<std::size_t>(k)];
@@ -52,55 +49,49 @@ double distance(const Vec3<T>& s, const QuadPoint& p) {
 }
 
 /// At a point of the unit ball around the origin, from so far away.
-template <class T>
-Ray<T> from(double distance, Random& random) {
+Ray<double> from(double distance, Random& random) {
   const Vec3<double> target = random.direction() * random.uniform(0, 0.8);
   const Vec3<double> way = random.direction() * distance;
-  return {(target - way).cast<T>(), way.cast<T>()};
+  return {(target - way).cast<double>(), way.cast<double>()};
 }
 
 /// Error of positions that casts compute for rays from 2^least to 2^most radii, in roundings of
 /// the ball's radius.
-template <class T>
 double worst_position(double least, double most) {
   Random random(41);
   double worst = 0;
   for (int i = 0; i < 4000; ++i) {
-    const Vec3<T> centre = random.in_cube().cast<T>();
-    const Ray<T> ray = from<T>(std::exp2(random.uniform(least, most)), random);
-    RayNearBall<T> near = ray_near(centre, ray);
-    if (near.is_from_afar(T(1))) near = ray_near_from_afar(centre, ray);
+    const Vec3<double> centre = random.in_cube().cast<double>();
+    const Ray<double> ray = from(std::exp2(random.uniform(least, most)), random);
+    RayNearBall<double> near = ray_near(centre, ray);
+    if (near.is_from_afar(1.0)) near = ray_near_from_afar(centre, ray);
     const QuadPoint nearest = closest_approach(ray, near.t_base, centre);
     // The line may pass the ball by, rounded as its origin is.
     const double scale = std::max(1.0, size_of(nearest));
-    worst = std::max(worst, distance<T>(near.s, nearest) / scale);
+    worst = std::max(worst, distance(near.s, nearest) / scale);
   }
-  return worst / std::numeric_limits<T>::epsilon();
+  return worst / std::numeric_limits<double>::epsilon();
 }
 
 TEST(FarOrigins, cost_no_digit_of_a_position) {
-  EXPECT_LT(worst_position<float>(0, 23), 4);
-  EXPECT_LT(worst_position<float>(23, 28), 4);  // the second way takes over here
-  EXPECT_LT(worst_position<float>(28, 45), 4);
-  EXPECT_LT(worst_position<double>(0, 52), 4);
-  EXPECT_LT(worst_position<double>(52, 57), 4);
-  EXPECT_LT(worst_position<double>(57, 61), 4);
+  EXPECT_LT(worst_position(0, 52), 4);
+  EXPECT_LT(worst_position(52, 57), 4);  // the second way takes over here
+  EXPECT_LT(worst_position(57, 61), 4);
 }
 
 /// Up to the limit where t's two numbers determine the place on the ball, all rays have results;
 /// from further away, no hit has. Rays that lead away miss, wherever they begin.
-template <class T>
 void check_hits(double limit) {
-  const PreparedShape<T> ball{Shape<T>(Sphere<T>{T(1)})};
-  CastOptions<T> options;
+  const PreparedShape ball{Shape(Sphere{1.0})};
+  CastOptions options;
   options.solver = SolverKind::paper;  // closed forms end before
   Random random(43);
   int hits = 0;
   for (int i = 0; i < 4000; ++i) {
     const double power = random.uniform(limit - 3, limit + 4);
-    const Ray<T> ray = from<T>(std::exp2(power), random);
-    if (size_of(closest_approach<T>(ray, T(1), {0, 0, 0})) > 0.9) continue;
-    const CastResult<T> answer = cast_ray(ball, ray, options);
+    const Ray<double> ray = from(std::exp2(power), random);
+    if (size_of(closest_approach(ray, 1.0, {0, 0, 0})) > 0.9) continue;
+    const CastResult<double> answer = cast_ray(ball, ray, options);
     ASSERT_NE(name_of(answer.status), name_of(Status::miss)) << power;
     if (power < limit - 0.1) {
       ASSERT_EQ(name_of(answer.status), name_of(Status::hit)) << power;
@@ -108,28 +99,27 @@ void check_hits(double limit) {
       ASSERT_EQ(name_of(answer.status), name_of(Status::exhausted)) << power;
     }
     ASSERT_GT(answer.supports, 0) << "whatever it says, it was asked";
-    const CastResult<T> away = cast_ray(ball, Ray<T>{ray.origin, -ray.direction}, options);
+    const CastResult<double> away =
+        cast_ray(ball, Ray<double>{ray.origin, -ray.direction}, options);
     ASSERT_EQ(name_of(away.status), name_of(Status::miss)) << power;
-    ASSERT_LT(away.normal.dot(ray.direction), T(0)) << power;
+    ASSERT_LT(away.normal.dot(ray.direction), 0.0) << power;
     if (answer.status != Status::hit) continue;
     ++hits;
-    const QuadPoint spot = along<T>(ray, Quad(answer.t_base) + Quad(answer.t_offset), {0, 0, 0});
+    const QuadPoint spot = along(ray, Quad(answer.t_base) + Quad(answer.t_offset), {0, 0, 0});
     ASSERT_NEAR(size_of(spot), 1, 0.2) << power;
   }
   EXPECT_GT(hits, 500);
 }
 
 TEST(FarOrigins, are_answered_up_to_where_t_tells_the_spot) {
-  check_hits<float>(46);
-  check_hits<double>(62);
+  check_hits(62);
 }
 
 /// From further away, up to the largest error of a position there: a ray that passes the ball by
 /// more than that misses it, and closer ones may have any result.
-template <class T>
 void check_misses(double limit) {
-  const PreparedShape<T> ball{Shape<T>(Sphere<T>{T(1)})};
-  CastOptions<T> options;
+  const PreparedShape ball{Shape(Sphere{1.0})};
+  CastOptions options;
   options.solver = SolverKind::paper;
   Random random(53);
   int missed = 0, unknown = 0;
@@ -137,10 +127,10 @@ void check_misses(double limit) {
     const double error = std::exp2(1 + i % 4), distance = std::exp2(limit) * error;
     // Along an axis, where all of the way aside is kept.
     const double beside = random.uniform(1, 8), turn = random.uniform(0, 6);
-    const Ray<T> ray = {
+    const Ray<double> ray = {
         Vec3<double>(-distance, beside * error * std::cos(turn), beside * error * std::sin(turn))
-            .cast<T>(),
-        {T(distance), 0, 0}};
+            .cast<double>(),
+        {double(distance), 0, 0}};
     const Status status = cast_ray(ball, ray, options).status;
     // Bounded by the bounding ball, of a radius from 1 to the diagonal of the shape's box.
     const double least = 1 / error + 4, most = std::sqrt(3) / error + 4;
@@ -157,8 +147,7 @@ void check_misses(double limit) {
 }
 
 TEST(FarOrigins, from_too_far_miss_by_more_than_positions_may_be_wrong_by) {
-  check_misses<float>(46);
-  check_misses<double>(62);
+  check_misses(62);
 }
 
 /// Along an axis past the origin, from so far away: most t's on the way are no numbers of double.
@@ -187,7 +176,7 @@ TEST(FarOrigins, are_proven_with_all_digits_or_refused) {
     }
     if (near.is_too_far) continue;
     // In two steps, whose products are exact.
-    QuadPoint at = along<double>(ray, Quad(near.t_base), near.centre);
+    QuadPoint at = along(ray, Quad(near.t_base), near.centre);
     for (std::size_t k = 0; k < 3; ++k)
       at[k] += Quad(near.t_shift) * Quad(ray.direction[static_cast<int>(k)]);
     worst = std::max(worst, distance(near.s, at) / std::max(1.0, size_of(at)));

@@ -19,8 +19,8 @@ constexpr double rounding = 64 * std::numeric_limits<double>::epsilon();
 class MissPlanes : public ::testing::TestWithParam<SampleShape> {};
 
 TEST_P(MissPlanes, separate_ray_and_shape) {
-  const Shape<double>& shape = GetParam().shape;
-  const PreparedShape<double> prepared(shape);
+  const Shape& shape = GetParam().shape;
+  const PreparedShape prepared(shape);
   Bounds<double> bounds = prepared.definition().bounds_of(Affine<double>{});
   if (!(bounds.half_extents().maxCoeff() > 0)) {  // a point: rays that pass it by
     const Vec3<double> point = bounds.centre();
@@ -63,13 +63,13 @@ INSTANTIATE_TEST_SUITE_P(Shapes, MissPlanes, values_asked_for<MissPlanes>(sample
                          });
 
 TEST(TangentRays, along_a_generator_are_met_where_they_first_touch_or_not_at_all) {
-  const PreparedShape<double> cylinder(Cylinder<double>{1, 1});
-  const CastResult<double> along = cast_ray<double>(cylinder, {{1, 0, -5}, {0, 0, 1}});
+  const PreparedShape cylinder(Cylinder{1, 1});
+  const CastResult<double> along = cast_ray(cylinder, {{1, 0, -5}, {0, 0, 1}});
   if (along.status == Status::hit) {
     EXPECT_NEAR(along.t(), 4, 1e-12);
   }
-  const PreparedShape<double> capsule(Capsule<double>{0.5, 1});
-  const CastResult<double> across = cast_ray<double>(capsule, {{-5, 0.5, -5}, {1, 0, 1}});
+  const PreparedShape capsule(Capsule{0.5, 1});
+  const CastResult<double> across = cast_ray(capsule, {{-5, 0.5, -5}, {1, 0, 1}});
   if (across.status == Status::hit) {
     EXPECT_NEAR(across.t(), 5, 1e-6);
   }

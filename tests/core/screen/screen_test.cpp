@@ -43,7 +43,7 @@ struct Seen {
   int pairs = 0, misses = 0, sure = 0, wrong = 0;
 };
 
-InstancePlace place_of(const PreparedShape<double>& shape, std::uint32_t body) {
+InstancePlace place_of(const PreparedShape& shape, std::uint32_t body) {
   InstancePlace place;
   const Mat3<double> map =
       shape.linear_to_inner() ? *shape.linear_to_inner() : Mat3<double>::Identity();
@@ -54,7 +54,7 @@ InstancePlace place_of(const PreparedShape<double>& shape, std::uint32_t body) {
 }
 
 /// A pair in each lane, each of its own sizes, and the result of a cast.
-void compare(const std::vector<PreparedShape<double>>& shapes, const std::vector<Ray<double>>& rays,
+void compare(const std::vector<PreparedShape>& shapes, const std::vector<Ray<double>>& rays,
              Seen& seen) {
   std::vector<InstancePlace> places;
   std::vector<Screen> screens;
@@ -93,33 +93,33 @@ void compare(const std::vector<PreparedShape<double>>& shapes, const std::vector
 }
 
 /// Shapes of one kind, with sizes drawn at random.
-std::vector<std::function<Shape<double>(const std::function<double()>&)>> kinds() {
+std::vector<std::function<Shape(const std::function<double()>&)>> kinds() {
   using Size = std::function<double()>;
   return {
-      [](const Size& s) { return Shape<double>(Sphere<double>{s()}); },
+      [](const Size& s) { return Shape(Sphere{s()}); },
       [](const Size& s) {
-        return Shape<double>(Ellipsoid<double>{{s(), s(), s()}});
+        return Shape(Ellipsoid{{s(), s(), s()}});
       },
       [](const Size& s) {
-        return Shape<double>(Box<double>{{s(), s(), s()}});
+        return Shape(Box{{s(), s(), s()}});
       },
       [](const Size& s) {
-        return Shape<double>(Rounded<double>{s() / 3, Shape<double>(Box<double>{{s(), s(), s()}})});
+        return Shape(Rounded{s() / 3, Shape(Box{{s(), s(), s()}})});
       },
       [](const Size& s) {
-        return Shape<double>(Capsule<double>{s(), s()});
+        return Shape(Capsule{s(), s()});
       },
       [](const Size& s) {
-        return Shape<double>(TaperedCapsule<double>{s(), s(), 2 + s()});
+        return Shape(TaperedCapsule{s(), s(), 2 + s()});
       },
       [](const Size& s) {
-        return Shape<double>(Cylinder<double>{s(), s()});
+        return Shape(Cylinder{s(), s()});
       },
       [](const Size& s) {
-        return Shape<double>(Cone<double>{s(), s()});
+        return Shape(Cone{s(), s()});
       },
       [](const Size& s) {
-        return Shape<double>(Frustum<double>{1 + s(), s() / 4, s()});
+        return Shape(Frustum{1 + s(), s() / 4, s()});
       },
   };
 }
@@ -129,14 +129,13 @@ TEST_F(ScreenOf, says_of_casts_at_all_kinds_what_they_answer) {
     Seen seen;
     for (int round = 0; round < 3000; ++round) {
       const double scale = std::exp2(within(-9, 9)), away = within(0, 1) < 0.3 ? 300 : 3;
-      std::vector<PreparedShape<double>> shapes;
+      std::vector<PreparedShape> shapes;
       std::vector<Ray<double>> rays;
       FormKind first = FormKind::none;
       while (shapes.size() < screen_lanes) {
-        const Shape<double> shape =
-            kind([&] { return static_cast<double>(std::exp2(within(-2, 1))); });
+        const Shape shape = kind([&] { return static_cast<double>(std::exp2(within(-2, 1))); });
         const Affine<double> pose = this->pose(scale, away * scale, round % 3 == 0);
-        PreparedShape<double> prepared(shape, pose);
+        PreparedShape prepared(shape, pose);
         const Screen screen = screen_of(prepared.definition(), Vec3<double>::Zero());
         if (!shapes.empty() && screen.kind != first) continue;  // a frustum with ends alike
         first = screen.kind;
@@ -162,9 +161,8 @@ TEST_F(ScreenOf, says_of_casts_at_all_kinds_what_they_answer) {
 }
 
 TEST_F(ScreenOf, is_seldom_undecided) {
-  const PreparedShape<double> shape{
-      Shape<double>(Rounded<double>{0.1, Shape<double>(Box<double>{{0.5, 0.3, 0.2}})})};
-  const std::vector<PreparedShape<double>> shapes(screen_lanes, shape);
+  const PreparedShape shape{Shape(Rounded{0.1, Shape(Box{{0.5, 0.3, 0.2}})})};
+  const std::vector<PreparedShape> shapes(screen_lanes, shape);
   Seen seen;
   for (int round = 0; round < 2000; ++round) {
     std::vector<Ray<double>> rays;
@@ -179,9 +177,8 @@ TEST_F(ScreenOf, is_seldom_undecided) {
 }
 
 TEST_F(ScreenOf, shapes_without_a_form_have_a_box_around_them) {
-  const Shape<double> sum = MinkowskiSum<double>{
-      {Shape<double>(Ellipsoid<double>{{0.4, 0.3, 0.2}}), Shape<double>(Cone<double>{0.3, 0.5})}};
-  const std::vector<PreparedShape<double>> shapes(screen_lanes, PreparedShape<double>{sum});
+  const Shape sum = MinkowskiSum{{Shape(Ellipsoid{{0.4, 0.3, 0.2}}), Shape(Cone{0.3, 0.5})}};
+  const std::vector<PreparedShape> shapes(screen_lanes, PreparedShape{sum});
   const Screen screen = screen_of(shapes[0].definition(), Vec3<double>::Zero());
   EXPECT_EQ(screen.kind, FormKind::box);
   EXPECT_FALSE(screen.is_whole);
@@ -206,8 +203,8 @@ struct Said {
   bool is_undecided() const { return first == 0 && !is_sure(); }
 };
 
-Said said_of(const Shape<double>& shape, const Ray<double>& ray) {
-  const PreparedShape<double> prepared{shape};
+Said said_of(const Shape& shape, const Ray<double>& ray) {
+  const PreparedShape prepared{shape};
   const Screen screen = screen_of(prepared.definition(), Vec3<double>::Zero());
   const InstancePlace place = place_of(prepared, 0);
   const std::array<Ray<double>, 2> rays = {ray, ray};
@@ -231,7 +228,7 @@ class ScreenBounds : public ::testing::Test {
 // A ball of radius 1 is known to E = 2^-19 * (3 sqrt(2) + 1) = 1e-5, and rays are decided that pass
 // its surface by more than 2 E (docs/forms.md, section 13).
 TEST_F(ScreenBounds, rays_are_undecided_that_pass_by_less_than_rounding) {
-  const Shape<double> ball = Sphere<double>{1};
+  const Shape ball = Sphere{1};
   const auto beside = [&](double distance) {
     return said_of(ball, {{-3, 1 + distance, 0}, {1, 0, 0}});
   };
@@ -244,7 +241,7 @@ TEST_F(ScreenBounds, rays_are_undecided_that_pass_by_less_than_rounding) {
 // E of this box is 8e-6: 1/30 of the one radius, 1/270 of the other.
 TEST_F(ScreenBounds, radii_that_rounding_nearly_reaches_are_undecided) {
   const auto at_edge = [](double radius) {
-    const Shape<double> box = Rounded<double>{radius, Shape<double>(Box<double>{{0.5, 0.5, 0.5}})};
+    const Shape box = Rounded{radius, Shape(Box{{0.5, 0.5, 0.5}})};
     return said_of(box, {{-3, 0.1, 0.2}, {1, 0.01, 0.02}});
   };
   EXPECT_TRUE(at_edge(2.5e-4).is_undecided());
@@ -254,7 +251,7 @@ TEST_F(ScreenBounds, radii_that_rounding_nearly_reaches_are_undecided) {
 // t is a sum of floats.
 TEST_F(ScreenBounds, parameters_are_known_to_their_own_rounding) {
   const double t = 1e4;
-  const Said said = said_of(Sphere<double>{0.01}, {{-t, 0, 0}, {1, 0, 0}});
+  const Said said = said_of(Sphere{0.01}, {{-t, 0, 0}, {1, 0, 0}});
   ASSERT_TRUE(said.is_sure());
   EXPECT_GT(said.last - said.first, 0x1p-23 * t);
   EXPECT_LT(said.last - said.first, 3e-6 * t);
@@ -263,16 +260,14 @@ TEST_F(ScreenBounds, parameters_are_known_to_their_own_rounding) {
 // Squares of numbers beyond would leave float's range.
 TEST_F(ScreenBounds, directions_of_unusual_length_and_shapes_of_unusual_size_are_undecided) {
   const auto along = [](double length) {
-    return said_of(Sphere<double>{1}, {{-3, 0.1, 0}, {length, 0, 0}});
+    return said_of(Sphere{1}, {{-3, 0.1, 0}, {length, 0, 0}});
   };
   EXPECT_TRUE(along(0.7e-4).is_undecided());
   EXPECT_TRUE(along(1.5e-4).is_sure());
   EXPECT_TRUE(along(0.7e4).is_sure());
   EXPECT_TRUE(along(1.5e4).is_undecided());
   const auto kind = [](double radius) {
-    return screen_of(ShapeDefinition<double>(Shape<double>(Sphere<double>{radius})),
-                     Vec3<double>::Zero())
-        .kind;
+    return screen_of(ShapeDefinition(Shape(Sphere{radius})), Vec3<double>::Zero()).kind;
   };
   EXPECT_EQ(kind(0.7e-7), FormKind::none);
   EXPECT_EQ(kind(1.5e-7), FormKind::ball);
@@ -282,10 +277,8 @@ TEST_F(ScreenBounds, directions_of_unusual_length_and_shapes_of_unusual_size_are
 
 // Solvers may take a ray for a hit that passes by as much as they tolerate.
 TEST_F(ScreenBounds, boxes_around_shapes_without_a_form_are_a_little_wider) {
-  const Shape<double> sum = MinkowskiSum<double>{
-      {Shape<double>(Ellipsoid<double>{{0.4, 0.3, 0.2}}), Shape<double>(Cone<double>{0.3, 0.5})}};
-  const double edge = bounds_of<double>(sum).upper.x(),
-               R = ShapeDefinition<double>(sum).inner_ball().radius;
+  const Shape sum = MinkowskiSum{{Shape(Ellipsoid{{0.4, 0.3, 0.2}}), Shape(Cone{0.3, 0.5})}};
+  const double edge = bounds_of(sum).upper.x(), R = ShapeDefinition(sum).inner_ball().radius;
   const auto beside = [&](double share) {
     return said_of(sum, {{edge + share * R, 0, -3}, {0, 0, 1}});
   };

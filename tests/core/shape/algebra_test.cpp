@@ -6,7 +6,7 @@
 namespace minkray::testing {
 namespace {
 
-using S = Shape<double>;
+using S = Shape;
 using P = Vec3<double>;
 
 constexpr int draws = 1500;
@@ -31,7 +31,7 @@ void assert_same(const S& a, const S& b, const P& n) {
 }
 
 S moved(const S& shape, const Affine<double>& map) {
-  return Transform<double>{shape, AffineMap<double>(map)};
+  return Transform{shape, AffineMap(map)};
 }
 
 TEST(Algebra, a_sum_reaches_as_far_as_its_parts_together) {
@@ -39,7 +39,7 @@ TEST(Algebra, a_sum_reaches_as_far_as_its_parts_together) {
       [] {
         const S a = draw_shape(), b = draw_shape();
         const P n = draw_direction();
-        const S sum = MinkowskiSum<double>{{a, b}};
+        const S sum = MinkowskiSum{{a, b}};
         RC_ASSERT(std::abs(reach(sum, n) - (reach(a, n) + reach(b, n))) <= rounding(a, b));
         RC_ASSERT((sum.support(n) - (a.support(n) + b.support(n))).norm() <= rounding(a, b));
       },
@@ -51,7 +51,7 @@ TEST(Algebra, a_hull_reaches_as_far_as_the_furthest_of_its_parts) {
       [] {
         const S a = draw_shape(), b = draw_shape(), c = draw_shape(0);
         const P n = draw_direction();
-        const S hull = HullOf<double>{{a, b, c}};
+        const S hull = HullOf{{a, b, c}};
         const double furthest = std::max({reach(a, n), reach(b, n), reach(c, n)});
         RC_ASSERT(std::abs(reach(hull, n) - furthest) <= rounding(hull, hull));
       },
@@ -63,8 +63,7 @@ TEST(Algebra, rounding_is_a_sum_with_a_ball) {
       [] {
         const S a = draw_shape();
         const double radius = *rc::gen::inRange(1, 64) / 16.0;
-        assert_same(Rounded<double>{radius, a},
-                    MinkowskiSum<double>{{a, S(Sphere<double>{radius})}}, draw_direction());
+        assert_same(Rounded{radius, a}, MinkowskiSum{{a, S(Sphere{radius})}}, draw_direction());
       },
       draws);
 }
@@ -74,8 +73,7 @@ TEST(Algebra, a_difference_is_a_sum_with_the_mirror_image) {
       [] {
         const S a = draw_shape(), b = draw_shape();
         const S mirrored = moved(b, {-Mat3<double>::Identity(), P(0, 0, 0)});
-        assert_same(MinkowskiDifference<double>{a, b}, MinkowskiSum<double>{{a, mirrored}},
-                    draw_direction());
+        assert_same(MinkowskiDifference{a, b}, MinkowskiSum{{a, mirrored}}, draw_direction());
       },
       draws);
 }
@@ -84,7 +82,7 @@ TEST(Algebra, a_shape_minus_itself_is_symmetric_and_holds_the_origin) {
   expect_always(
       [] {
         const S a = draw_shape();
-        const S difference = MinkowskiDifference<double>{a, a};
+        const S difference = MinkowskiDifference{a, a};
         const P n = draw_direction();
         RC_ASSERT(std::abs(reach(difference, n) - reach(difference, -n)) <= rounding(a, a));
         RC_ASSERT(reach(difference, n) >= -rounding(a, a));
@@ -97,12 +95,12 @@ TEST(Algebra, sums_and_hulls_do_not_care_for_order_or_brackets) {
       [] {
         const S a = draw_shape(1), b = draw_shape(1), c = draw_shape(1);
         const P n = draw_direction();
-        using Sum = MinkowskiSum<double>;
-        using Hull = HullOf<double>;
+        using Sum = MinkowskiSum;
+        using Join = HullOf;
         assert_same(Sum{{a, S(Sum{{b, c}})}}, Sum{{S(Sum{{a, b}}), c}}, n);
         assert_same(Sum{{a, b, c}}, Sum{{c, a, b}}, n);
-        assert_same(Hull{{a, S(Hull{{b, c}})}}, Hull{{S(Hull{{a, b}}), c}}, n);
-        assert_same(Hull{{a, b, c}}, Hull{{c, a, b}}, n);
+        assert_same(Join{{a, S(Join{{b, c}})}}, Join{{S(Join{{a, b}}), c}}, n);
+        assert_same(Join{{a, b, c}}, Join{{c, a, b}}, n);
       },
       draws);
 }
@@ -111,10 +109,8 @@ TEST(Algebra, a_sum_with_a_hull_is_the_hull_of_the_sums) {
   expect_always(
       [] {
         const S a = draw_shape(1), b = draw_shape(1), c = draw_shape(1);
-        assert_same(
-            MinkowskiSum<double>{{a, S(HullOf<double>{{b, c}})}},
-            HullOf<double>{{S(MinkowskiSum<double>{{a, b}}), S(MinkowskiSum<double>{{a, c}})}},
-            draw_direction());
+        assert_same(MinkowskiSum{{a, S(HullOf{{b, c}})}},
+                    HullOf{{S(MinkowskiSum{{a, b}}), S(MinkowskiSum{{a, c}})}}, draw_direction());
       },
       draws);
 }
@@ -126,10 +122,9 @@ TEST(Algebra, maps_commute_with_sums_and_hulls) {
         const P n = draw_direction(), by = draw_direction();
         const Affine<double> map{draw_rotation() * P(2, 0.5, -1).asDiagonal(), by};
         const Affine<double> linear{map.linear, P(0, 0, 0)};
-        assert_same(moved(MinkowskiSum<double>{{a, b}}, map),
-                    MinkowskiSum<double>{{moved(a, map), moved(b, linear)}}, n);
-        assert_same(moved(HullOf<double>{{a, b}}, map),
-                    HullOf<double>{{moved(a, map), moved(b, map)}}, n);
+        assert_same(moved(MinkowskiSum{{a, b}}, map),
+                    MinkowskiSum{{moved(a, map), moved(b, linear)}}, n);
+        assert_same(moved(HullOf{{a, b}}, map), HullOf{{moved(a, map), moved(b, map)}}, n);
       },
       draws);
 }

@@ -2,7 +2,6 @@
 // Properties of every shape's support mapping, checked on every kind and on random nestings.
 #include <gtest/gtest.h>
 
-#include "core/derived/convert.h"
 #include "core/derived/shape_bounds.h"
 #include "tests/support/random.h"
 #include "tests/support/sample_shapes.h"
@@ -13,7 +12,7 @@ namespace {
 std::vector<SampleShape> shapes() {
   std::vector<SampleShape> all = sample_shapes();
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    const Shape<double> shape = random_nesting(seed);
+    const Shape shape = random_nesting(seed);
     all.push_back({"seed " + std::to_string(seed) + " " + name_of_nesting(shape), shape});
   }
   return all;
@@ -35,9 +34,8 @@ std::vector<Vec3<double>> directions(std::uint64_t seed, int count) {
 }
 
 /// A length that all rounding of supports is relative to: the largest coordinate that occurs.
-template <class T>
-double size_of(const Shape<T>& shape) {
-  const Bounds<T> bounds = bounds_of<T>(shape);
+double size_of(const Shape& shape) {
+  const Bounds<double> bounds = bounds_of(shape);
   return static_cast<double>(
       std::max(bounds.lower.cwiseAbs().maxCoeff(), bounds.upper.cwiseAbs().maxCoeff()));
 }
@@ -46,23 +44,17 @@ double size_of(const Shape<T>& shape) {
 /// for each of up to four levels of nesting, whose operands may be larger than the whole.
 constexpr double rounding_in_epsilons = 64;
 
-template <class T>
-class Supports : public ::testing::Test {};
-using Scalars = ::testing::Types<float, double>;
-TYPED_TEST_SUITE(Supports, Scalars);
-
-TYPED_TEST(Supports, maximise_over_the_support_points_of_other_directions) {
-  using T = TypeParam;
+TEST(Supports, maximise_over_the_support_points_of_other_directions) {
   const auto all = directions(1, 150);
   for (const SampleShape& sample : shapes()) {
-    const Shape<T> shape = convert<T>(sample.shape);
+    const Shape shape = sample.shape;
     const double rounding =
-        rounding_in_epsilons * double(std::numeric_limits<T>::epsilon()) * size_of(shape);
+        rounding_in_epsilons * double(std::numeric_limits<double>::epsilon()) * size_of(shape);
     std::vector<Vec3<double>> n, s;
     for (const auto& direction : all) {
-      const Vec3<T> rounded = direction.template cast<T>();
-      n.push_back(rounded.template cast<double>());
-      s.push_back(shape.support(rounded).template cast<double>());
+      const Vec3<double> rounded = direction.cast<double>();
+      n.push_back(rounded.cast<double>());
+      s.push_back(shape.support(rounded).cast<double>());
     }
     for (std::size_t i = 0; i < n.size(); ++i)
       for (std::size_t j = 0; j < n.size(); ++j)
@@ -72,17 +64,16 @@ TYPED_TEST(Supports, maximise_over_the_support_points_of_other_directions) {
   }
 }
 
-TYPED_TEST(Supports, do_not_depend_on_the_length_of_the_direction) {
-  using T = TypeParam;
+TEST(Supports, do_not_depend_on_the_length_of_the_direction) {
   const auto all = directions(2, 60);
   for (const SampleShape& sample : shapes()) {
-    const Shape<T> shape = convert<T>(sample.shape);
+    const Shape shape = sample.shape;
     const double rounding =
-        rounding_in_epsilons * double(std::numeric_limits<T>::epsilon()) * size_of(shape);
+        rounding_in_epsilons * double(std::numeric_limits<double>::epsilon()) * size_of(shape);
     for (const auto& direction : all)
       for (const double length : {0x1p-40, 0x1p40}) {
-        const Vec3<T> n = direction.template cast<T>();
-        const Vec3<T> longer = n * T(length);
+        const Vec3<double> n = direction.cast<double>();
+        const Vec3<double> longer = n * double(length);
         const double here = double(n.dot(shape.support(n))),
                      there = double(n.dot(shape.support(longer)));
         ASSERT_NEAR(here, there, rounding) << sample.name << ", n " << direction.transpose();
@@ -90,49 +81,31 @@ TYPED_TEST(Supports, do_not_depend_on_the_length_of_the_direction) {
   }
 }
 
-TYPED_TEST(Supports, of_float_are_those_of_double_rounded) {
-  const auto all = directions(3, 60);
+TEST(Supports, of_a_zero_direction_are_points_of_the_shape) {
   for (const SampleShape& sample : shapes()) {
-    const Shape<float> in_float = convert<float>(sample.shape);
-    const double rounding = rounding_in_epsilons * double(std::numeric_limits<float>::epsilon()) *
-                            size_of(sample.shape);
-    for (const auto& n : all) {
-      const Vec3<float> rounded = n.cast<float>();
-      const Vec3<double> exact = rounded.cast<double>();
-      ASSERT_NEAR(exact.dot(in_float.support(rounded).template cast<double>()),
-                  exact.dot(sample.shape.support(exact)), rounding)
-          << sample.name << ", n " << n.transpose();
-    }
-  }
-}
-
-TYPED_TEST(Supports, of_a_zero_direction_are_points_of_the_shape) {
-  using T = TypeParam;
-  for (const SampleShape& sample : shapes()) {
-    const Shape<T> shape = convert<T>(sample.shape);
+    const Shape shape = sample.shape;
     const double rounding =
-        rounding_in_epsilons * double(std::numeric_limits<T>::epsilon()) * size_of(shape);
-    const Vec3<double> some = shape.support(Vec3<T>(Vec3<T>::Zero())).template cast<double>();
+        rounding_in_epsilons * double(std::numeric_limits<double>::epsilon()) * size_of(shape);
+    const Vec3<double> some = shape.support(Vec3<double>(Vec3<double>::Zero())).cast<double>();
     for (const auto& direction : directions(4, 100)) {
-      const Vec3<T> n = direction.template cast<T>();
-      const Vec3<double> exact = n.template cast<double>();
-      ASSERT_LE(exact.dot(some), exact.dot(shape.support(n).template cast<double>()) + rounding)
+      const Vec3<double> n = direction.cast<double>();
+      const Vec3<double> exact = n.cast<double>();
+      ASSERT_LE(exact.dot(some), exact.dot(shape.support(n).cast<double>()) + rounding)
           << sample.name;
     }
   }
 }
 
-TYPED_TEST(Supports, bounds_contain_and_touch) {
-  using T = TypeParam;
+TEST(Supports, bounds_contain_and_touch) {
   for (const SampleShape& sample : shapes()) {
-    const Shape<T> shape = convert<T>(sample.shape);
-    const Bounds<T> bounds = bounds_of<T>(shape);
-    const Ball<T> ball = ball_around(bounds);
-    const T rounding =
-        T(rounding_in_epsilons) * std::numeric_limits<T>::epsilon() * T(size_of(shape));
-    Bounds<T> reached;
+    const Shape shape = sample.shape;
+    const Bounds<double> bounds = bounds_of(shape);
+    const Ball<double> ball = ball_around(bounds);
+    const double rounding = double(rounding_in_epsilons) * std::numeric_limits<double>::epsilon() *
+                            double(size_of(shape));
+    Bounds<double> reached;
     for (const auto& direction : directions(5, 500)) {
-      const Vec3<T> s = shape.support(Vec3<T>(direction.template cast<T>()));
+      const Vec3<double> s = shape.support(Vec3<double>(direction.cast<double>()));
       reached.extend(s);
       ASSERT_LE((s - ball.centre).norm(), ball.radius + rounding) << sample.name;
     }
@@ -147,26 +120,26 @@ TYPED_TEST(Supports, bounds_contain_and_touch) {
 
 // Two descriptions of the same shape.
 
-Shape<double> shape_at(Shape<double> shape, const Mat3<double>& linear, const Vec3<double>& by) {
-  return Transform<double>{std::move(shape), AffineMap<double>(Affine<double>{linear, by})};
+Shape shape_at(Shape shape, const Mat3<double>& linear, const Vec3<double>& by) {
+  return Transform{std::move(shape), AffineMap(Affine<double>{linear, by})};
 }
 
 struct Pair {
   const char* name;
-  Shape<double> a, b;
+  Shape a, b;
 };
 
 std::vector<Pair> pairs() {
-  using S = Shape<double>;
+  using S = Shape;
   using P = Vec3<double>;
   const Mat3<double> identity = Mat3<double>::Identity(), turn = Random(3).rotation();
-  const S box = Box<double>{{1, 0.5, 0.25}}, ball = Sphere<double>{0.3};
-  const S axis = Segment<double>{{P(0, 0, -1), P(0, 0, 1)}};
-  const S cone = Cone<double>{1, 0.7};
+  const S box = Box{{1, 0.5, 0.25}}, ball = Sphere{0.3};
+  const S axis = Segment{{P(0, 0, -1), P(0, 0, 1)}};
+  const S cone = Cone{1, 0.7};
   std::vector<P> corners;
   for (int i = 0; i < 8; ++i)
     corners.emplace_back(i & 1 ? 1 : -1, i & 2 ? 0.5 : -0.5, i & 4 ? 0.25 : -0.25);
-  const S egg = Ellipsoid<double>{{1, 2, 3}};
+  const S egg = Ellipsoid{{1, 2, 3}};
   const auto leaning = [&](double along_x, double along_y) {
     Mat3<double> linear = identity;
     linear(2, 0) = along_x;
@@ -174,66 +147,59 @@ std::vector<Pair> pairs() {
     return linear;
   };
   return {
-      {"a rounded shape is a sum with a ball", Rounded<double>{0.3, box},
-       MinkowskiSum<double>{{box, ball}}},
-      {"rounding adds up", Rounded<double>{0.1, S(Rounded<double>{0.2, cone})},
-       Rounded<double>{0.1 + 0.2, cone}},
-      {"a sphere is a rounded point", Sphere<double>{2}, Rounded<double>{2, S(Point<double>{})}},
-      {"a segment is the hull of its ends", Segment<double>{{P(1, 2, 3), P(-1, 0, 5)}},
-       HullOf<double>{{S(Point<double>{{1, 2, 3}}), S(Point<double>{{-1, 0, 5}})}}},
-      {"a capsule is a rounded segment", Capsule<double>{0.4, 1}, Rounded<double>{0.4, axis}},
-      {"a tapered capsule is the hull of its balls", TaperedCapsule<double>{{0.8, 0.3}, 1},
-       HullOf<double>{{shape_at(Sphere<double>{0.8}, identity, P(0, 0, -1)),
-                       shape_at(Sphere<double>{0.3}, identity, P(0, 0, 1))}}},
-      {"a cylinder is the sum of disk and segment", Cylinder<double>{0.6, 1},
-       MinkowskiSum<double>{{S(Disk<double>{0.6}), axis}}},
+      {"a rounded shape is a sum with a ball", Rounded{0.3, box}, MinkowskiSum{{box, ball}}},
+      {"rounding adds up", Rounded{0.1, S(Rounded{0.2, cone})}, Rounded{0.1 + 0.2, cone}},
+      {"a sphere is a rounded point", Sphere{2}, Rounded{2, S(Point{})}},
+      {"a segment is the hull of its ends", Segment{{P(1, 2, 3), P(-1, 0, 5)}},
+       HullOf{{S(Point{{1, 2, 3}}), S(Point{{-1, 0, 5}})}}},
+      {"a capsule is a rounded segment", Capsule{0.4, 1}, Rounded{0.4, axis}},
+      {"a tapered capsule is the hull of its balls", TaperedCapsule{{0.8, 0.3}, 1},
+       HullOf{{shape_at(Sphere{0.8}, identity, P(0, 0, -1)),
+               shape_at(Sphere{0.3}, identity, P(0, 0, 1))}}},
+      {"a cylinder is the sum of disk and segment", Cylinder{0.6, 1},
+       MinkowskiSum{{S(Disk{0.6}), axis}}},
       {"a cut cylinder is the hull of two ellipses",
-       CutCylinder<double>{0.8, {-0.5, 1}, {0.2, -0.3}, {0.5, 0.4}},
-       HullOf<double>{{shape_at(Disk<double>{0.8}, leaning(0.2, -0.3), P(0, 0, -0.5)),
-                       shape_at(Disk<double>{0.8}, leaning(0.5, 0.4), P(0, 0, 1))}}},
-      {"a cylinder that is cut straight is a cylinder", CutCylinder<double>{0.6, {-1, 1}},
-       Cylinder<double>{0.6, 1}},
-      {"a cone is a frustum without top", cone, Frustum<double>{{1, 0}, 0.7}},
-      {"a frustum of equal radii is a cylinder", Frustum<double>{{0.6, 0.6}, 1},
-       Cylinder<double>{0.6, 1}},
-      {"a frustum is the hull of its disks", Frustum<double>{{1, 0.4}, 0.5},
-       HullOf<double>{{shape_at(Disk<double>{1}, identity, P(0, 0, -0.5)),
-                       shape_at(Disk<double>{0.4}, identity, P(0, 0, 0.5))}}},
+       CutCylinder{0.8, {-0.5, 1}, {0.2, -0.3}, {0.5, 0.4}},
+       HullOf{{shape_at(Disk{0.8}, leaning(0.2, -0.3), P(0, 0, -0.5)),
+               shape_at(Disk{0.8}, leaning(0.5, 0.4), P(0, 0, 1))}}},
+      {"a cylinder that is cut straight is a cylinder", CutCylinder{0.6, {-1, 1}},
+       Cylinder{0.6, 1}},
+      {"a cone is a frustum without top", cone, Frustum{{1, 0}, 0.7}},
+      {"a frustum of equal radii is a cylinder", Frustum{{0.6, 0.6}, 1}, Cylinder{0.6, 1}},
+      {"a frustum is the hull of its disks", Frustum{{1, 0.4}, 0.5},
+       HullOf{{shape_at(Disk{1}, identity, P(0, 0, -0.5)),
+               shape_at(Disk{0.4}, identity, P(0, 0, 0.5))}}},
       {"an ellipsoid is a stretched ball", egg,
-       shape_at(Sphere<double>{1}, P(1, 2, 3).asDiagonal(), P(0, 0, 0))},
-      {"a superellipsoid of exponent 2 is an ellipsoid", Superellipsoid<double>{{1, 2, 3}, 2}, egg},
-      {"a superellipsoid of exponent 1 is an octahedron", Superellipsoid<double>{{1, 2, 3}, 1},
-       Hull<double>{PointCloud<double>(
+       shape_at(Sphere{1}, P(1, 2, 3).asDiagonal(), P(0, 0, 0))},
+      {"a superellipsoid of exponent 2 is an ellipsoid", Superellipsoid{{1, 2, 3}, 2}, egg},
+      {"a superellipsoid of exponent 1 is an octahedron", Superellipsoid{{1, 2, 3}, 1},
+       Hull{PointCloud(
            {P(1, 0, 0), P(-1, 0, 0), P(0, 2, 0), P(0, -2, 0), P(0, 0, 3), P(0, 0, -3)})}},
-      {"a box is the hull of its corners", box, Hull<double>{PointCloud<double>(corners)}},
+      {"a box is the hull of its corners", box, Hull{PointCloud(corners)}},
       {"a box is a sum of three segments", box,
-       MinkowskiSum<double>{{S(Segment<double>{{P(-1, 0, 0), P(1, 0, 0)}}),
-                             S(Segment<double>{{P(0, -0.5, 0), P(0, 0.5, 0)}}),
-                             S(Segment<double>{{P(0, 0, -0.25), P(0, 0, 0.25)}})}}},
-      {"a difference is a sum with the mirror image", MinkowskiDifference<double>{box, cone},
-       MinkowskiSum<double>{{box, shape_at(cone, -identity, P(0, 0, 0))}}},
-      {"a triangle is the hull of its corners",
-       Triangle<double>{{P(0, 0, 0), P(1, 0, 0), P(0, 1, 2)}},
-       Hull<double>{PointCloud<double>({P(0, 0, 0), P(1, 0, 0), P(0, 1, 2)})}},
-      {"maps of a sum are sums of maps",
-       shape_at(MinkowskiSum<double>{{box, cone}}, 2 * turn, P(1, 2, 3)),
-       MinkowskiSum<double>{
-           {shape_at(box, 2 * turn, P(1, 2, 3)), shape_at(cone, 2 * turn, P(0, 0, 0))}}},
-      {"maps of a hull are hulls of maps", shape_at(HullOf<double>{{box, cone}}, turn, P(1, 2, 3)),
-       HullOf<double>{{shape_at(box, turn, P(1, 2, 3)), shape_at(cone, turn, P(1, 2, 3))}}},
+       MinkowskiSum{{S(Segment{{P(-1, 0, 0), P(1, 0, 0)}}),
+                     S(Segment{{P(0, -0.5, 0), P(0, 0.5, 0)}}),
+                     S(Segment{{P(0, 0, -0.25), P(0, 0, 0.25)}})}}},
+      {"a difference is a sum with the mirror image", MinkowskiDifference{box, cone},
+       MinkowskiSum{{box, shape_at(cone, -identity, P(0, 0, 0))}}},
+      {"a triangle is the hull of its corners", Triangle{{P(0, 0, 0), P(1, 0, 0), P(0, 1, 2)}},
+       Hull{PointCloud({P(0, 0, 0), P(1, 0, 0), P(0, 1, 2)})}},
+      {"maps of a sum are sums of maps", shape_at(MinkowskiSum{{box, cone}}, 2 * turn, P(1, 2, 3)),
+       MinkowskiSum{{shape_at(box, 2 * turn, P(1, 2, 3)), shape_at(cone, 2 * turn, P(0, 0, 0))}}},
+      {"maps of a hull are hulls of maps", shape_at(HullOf{{box, cone}}, turn, P(1, 2, 3)),
+       HullOf{{shape_at(box, turn, P(1, 2, 3)), shape_at(cone, turn, P(1, 2, 3))}}},
       {"maps join", shape_at(shape_at(egg, turn, P(1, 0, 0)), 3 * turn, P(0, 1, 0)),
        shape_at(egg, 3 * turn * turn, 3 * turn * P(1, 0, 0) + P(0, 1, 0))},
   };
 }
 
-TYPED_TEST(Supports, two_ways_to_say_a_shape_have_one_support_function) {
-  using T = TypeParam;
+TEST(Supports, two_ways_to_say_a_shape_have_one_support_function) {
   for (const Pair& pair : pairs()) {
-    const Shape<T> a = convert<T>(pair.a), b = convert<T>(pair.b);
-    const double rounding = rounding_in_epsilons * double(std::numeric_limits<T>::epsilon()) *
+    const Shape a = pair.a, b = pair.b;
+    const double rounding = rounding_in_epsilons * double(std::numeric_limits<double>::epsilon()) *
                             std::max(size_of(a), size_of(b));
     for (const auto& direction : directions(6, 400)) {
-      const Vec3<T> n = direction.template cast<T>();
+      const Vec3<double> n = direction.cast<double>();
       ASSERT_NEAR(double(n.dot(a.support(n))), double(n.dot(b.support(n))), rounding)
           << pair.name << ", n " << direction.transpose();
     }

@@ -17,17 +17,16 @@ using testing::SampleShape;
 
 /// Moves b past a at random, nearer and nearer to where they no longer touch, and returns how far
 /// apart the points of the contacts are at worst, in sizes.
-double worst_contact(const CentredShape<double>& a, const CentredShape<double>& b, Random& random,
-                     int& hits) {
+double worst_contact(const CentredShape& a, const CentredShape& b, Random& random, int& hits) {
   const double size = a.radius + b.radius;
   const V from = random.direction(), aside = random.direction().cross(from).normalized();
   const V centre = random.uniform(1, 4) * size * from;
-  PreparedPair<double> pair(a, b);
+  PreparedPair pair(a, b);
   pair.place(V::Zero(), centre);
   double worst = 0, meets = 0, passes = 3 * size;
   for (int i = 0; i < 50; ++i) {
     const double middle = (meets + passes) / 2;
-    const auto result = cast_shape<double>(pair, middle * aside - centre);
+    const auto result = cast_shape(pair, middle * aside - centre);
     const bool is_hit = result.cast.status == Status::hit;
     (is_hit ? meets : passes) = middle;
     if (!is_hit) continue;
@@ -39,9 +38,9 @@ double worst_contact(const CentredShape<double>& a, const CentredShape<double>& 
 
 TEST(GrazingContacts, are_one_point_of_both_shapes) {
   Random random(7);
-  std::vector<std::pair<std::string, CentredShape<double>>> shapes;
+  std::vector<std::pair<std::string, CentredShape>> shapes;
   for (const SampleShape& sample : sample_shapes())
-    shapes.emplace_back(sample.name, centred<double>(sample.shape, {random.rotation(), V::Zero()}));
+    shapes.emplace_back(sample.name, centred(sample.shape, {random.rotation(), V::Zero()}));
   int hits = 0;
   for (const auto& [name, a] : shapes) {
     // These have curved patches between flat ones, where the distance query ended early.

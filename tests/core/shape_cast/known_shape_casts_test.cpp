@@ -77,8 +77,8 @@ std::optional<double> rounded_box_entry(const V& o, const V& d, const V& h, doub
   return first;
 }
 
-void expect_entry(const ShapeCastResult<double>& result, std::optional<double> expected,
-                  double tolerance, int i) {
+void expect_entry(const ShapeCastResult& result, std::optional<double> expected, double tolerance,
+                  int i) {
   if (!expected) {
     EXPECT_EQ(result.cast.status, Status::miss) << i;
     return;
@@ -90,7 +90,7 @@ void expect_entry(const ShapeCastResult<double>& result, std::optional<double> e
 }
 
 /// Loss of precision of t compared with the position: grazing contacts slide along.
-double slope(const ShapeCastResult<double>& result, const V& d) {
+double slope(const ShapeCastResult& result, const V& d) {
   return 1 / std::max(std::abs(result.cast.normal.dot(d)), 1e-3);
 }
 
@@ -104,21 +104,19 @@ TEST(ShapeCast, of_balls_boxes_and_capsules_has_its_closed_form) {
     const V d = (a - b) + random.in_cube(2.5);
     const double r = random.in(0.1, 1), q = random.in(0.1, 1);
     const V o = b - a;
-    const auto check = [&](const Shape<double>& A, const Shape<double>& B,
-                           std::optional<double> expected) {
+    const auto check = [&](const Shape& A, const Shape& B, std::optional<double> expected) {
       const auto pair = pair_of(A, at(a), B, at(b));
-      const auto result = cast_shape<double>(pair, d, 10);
+      const auto result = cast_shape(pair, d, 10);
       if (expected && *expected > 10) expected.reset();
       expect_entry(result, expected, 1e-13 * slope(result, d), i);
       hits += result.cast.found();
       ++casts;
     };
-    check(Sphere<double>{r}, Sphere<double>{q}, ball_entry(o, d, r + q));
-    check(Box<double>{h}, Box<double>{g}, box_entry(o, d, h + g));
-    check(Box<double>{h}, Sphere<double>{q}, rounded_box_entry(o, d, h, q));
-    check(Sphere<double>{q}, Box<double>{h}, rounded_box_entry(o, d, h, q));
-    check(Capsule<double>{r, h.z()}, Sphere<double>{q},
-          rounded_box_entry(o, d, V(0, 0, h.z()), r + q));
+    check(Sphere{r}, Sphere{q}, ball_entry(o, d, r + q));
+    check(Box{h}, Box{g}, box_entry(o, d, h + g));
+    check(Box{h}, Sphere{q}, rounded_box_entry(o, d, h, q));
+    check(Sphere{q}, Box{h}, rounded_box_entry(o, d, h, q));
+    check(Capsule{r, h.z()}, Sphere{q}, rounded_box_entry(o, d, V(0, 0, h.z()), r + q));
   }
   EXPECT_GT(hits, casts * 3 / 10);
   EXPECT_LT(hits, casts * 7 / 10);

@@ -20,7 +20,7 @@ TEST(Distance, of_balls_that_are_scaled_and_moved_has_its_closed_form) {
   for (int i = 0; i < 200; ++i) {
     // Each ball is scaled and moved, turned around the world's origin, and placed: three maps.
     struct Ball {
-      CentredShape<double> shape;
+      CentredShape shape;
       V centre;
       double radius;
     };
@@ -30,7 +30,7 @@ TEST(Distance, of_balls_that_are_scaled_and_moved_has_its_closed_form) {
       const Mat3<double> turn = random.rotation();
       const Affine<double> first{scale * Mat3<double>::Identity(), shift};
       const Affine<double> second{turn, V::Zero()};
-      return {centred(mapped(mapped(Sphere<double>{radius}, first), second), moved(place)),
+      return {centred(mapped(mapped(Sphere{radius}, first), second), moved(place)),
               V(turn * shift + place), scale * radius};
     };
     const Ball a = ball(), b = ball();
@@ -47,8 +47,8 @@ TEST(Distance, of_balls_that_are_scaled_and_moved_has_its_closed_form) {
 // both is twice as large as that around half of the way between them.
 TEST(RayCast, meets_a_capsule_one_rounding_long_far_from_its_origin_at_its_end) {
   const double step = 0x1p-32, low = 0x1p20 + step, high = low + step, radius = step / 4;
-  const PreparedShape<double> capsule(Shape<double>(Rounded<double>{
-      radius, Nested<double>(Shape<double>(Segment<double>{{V(low, 0, 0), V(high, 0, 0)}}))}));
+  const PreparedShape capsule(
+      Shape(Rounded{radius, Nested(Shape(Segment{{V(low, 0, 0), V(high, 0, 0)}}))}));
   const auto expect_hit = [&](const V& from, const V& direction) {
     const CastResult<double> result = cast_ray(capsule, {from, direction});
     ASSERT_EQ(result.status, Status::hit) << direction.transpose();
@@ -61,9 +61,9 @@ TEST(RayCast, meets_a_capsule_one_rounding_long_far_from_its_origin_at_its_end) 
 
 // The new place of the first shape was forgotten.
 TEST(ShapeCast, begins_where_both_shapes_were_put) {
-  PreparedPair<double> pair(centred<double>(Sphere<double>{1}), centred<double>(Sphere<double>{2}));
+  PreparedPair pair(centred(Sphere{1}), centred(Sphere{2}));
   pair.place({-3, 5, 1}, {4, 5, 1});
-  const ShapeCastResult<double> result = cast_shape(pair, V(-2, 0, 0));
+  const ShapeCastResult result = cast_shape(pair, V(-2, 0, 0));
   ASSERT_EQ(result.cast.status, Status::hit);
   EXPECT_NEAR(result.cast.t(), 2, 1e-14);
   EXPECT_LE((result.point_a - V(-2, 5, 1)).norm(), 1e-13);

@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "core/derived/convert.h"
 #include "core/shape_cast/distance.h"
 #include "core/shape_cast/shape_cast.h"
 #include "tests/core/pair_distance/random_numbers.h"
@@ -34,16 +33,13 @@ inline Affine<double> at(double x, double y, double z) {
   return at(Vec3<double>(x, y, z));
 }
 
-template <class T>
-CentredShape<T> place(const Shape<double>& shape, const Affine<double>& pose = {}) {
-  return centred<T>(convert<T>(shape), pose.template cast<T>());
+inline CentredShape place(const Shape& shape, const Affine<double>& pose = {}) {
+  return centred(shape, pose);
 }
 
-template <class T = double>
-PreparedPair<T> pair_of(const Shape<double>& a, const Affine<double>& pose_a,
-                        const Shape<double>& b, const Affine<double>& pose_b) {
-  return PreparedPair<T>(centred(convert<T>(a), pose_a.cast<T>()),
-                         centred(convert<T>(b), pose_b.cast<T>()));
+inline PreparedPair pair_of(const Shape& a, const Affine<double>& pose_a, const Shape& b,
+                            const Affine<double>& pose_b) {
+  return PreparedPair(centred(a, pose_a), centred(b, pose_b));
 }
 
 }  // namespace minkray::testing

@@ -9,28 +9,22 @@
 namespace minkray {
 namespace {
 
-template <class T>
-class HalfSpaces : public ::testing::Test {};
-using Scalars = ::testing::Types<float, double>;
-TYPED_TEST_SUITE(HalfSpaces, Scalars);
-
-template <class T>
-Ray<T> random_ray(testing::Random& random) {
-  return {(5 * random.in_cube()).cast<T>(), random.direction().cast<T>()};
+Ray<double> ray_nearby(testing::Random& random) {
+  return {(5 * random.in_cube()).cast<double>(), random.direction().cast<double>()};
 }
 
-TYPED_TEST(HalfSpaces, where_a_ray_enters_its_height_is_zero_and_the_interval_holds_that) {
-  using T = TypeParam;
+TEST(HalfSpaces, where_a_ray_enters_its_height_is_zero_and_the_interval_holds_that) {
   testing::Random random(1);
   int hits = 0, inside = 0;
   for (int i = 0; i < 20000; ++i) {
-    const HalfSpaceBody<T> body{random.direction().template cast<T>(), T(random.uniform(-2, 2))};
-    const Ray<T> ray = random_ray<T>(random);
-    const CastResult<T> result = cast_ray(body, ray);
+    const HalfSpaceBody<double> body{random.direction().cast<double>(),
+                                     double(random.uniform(-2, 2))};
+    const Ray<double> ray = ray_nearby(random);
+    const CastResult<double> result = cast_ray(body, ray);
     const auto height = [&](long double t) {
       const Vec3<long double> at =
-          ray.origin.template cast<long double>() + t * ray.direction.template cast<long double>();
-      return body.normal.template cast<long double>().dot(at) - (long double)(body.offset);
+          ray.origin.cast<long double>() + t * ray.direction.cast<long double>();
+      return body.normal.cast<long double>().dot(at) - (long double)(body.offset);
     };
     if (result.status == Status::hit) {
       ++hits;
@@ -54,24 +48,24 @@ TYPED_TEST(HalfSpaces, where_a_ray_enters_its_height_is_zero_and_the_interval_ho
 }
 
 // A way that is not finite is neither a hit nor a miss, and no world reports a hit.
-TYPED_TEST(HalfSpaces, a_plane_that_numbers_do_not_reach_is_told) {
-  using T = TypeParam;
-  const T most = std::numeric_limits<T>::max(), least = std::numeric_limits<T>::denorm_min(),
-          infinity = std::numeric_limits<T>::infinity();
-  const HalfSpaceBody<T> floor{{T(0), T(0), T(1)}, T(0)}, beyond{{T(0), T(0), T(1)}, infinity};
-  const HalfSpaceBody<T> askew{{T(0.6), T(0), T(0.8)}, -most};
-  const auto status = [](const HalfSpaceBody<T>& body, const Vec3<T>& origin,
-                         const Vec3<T>& direction, T t_max) {
-    return cast_ray(body, Ray<T>{origin, direction, t_max}).status;
+TEST(HalfSpaces, a_plane_that_numbers_do_not_reach_is_told) {
+  const double most = std::numeric_limits<double>::max(),
+               least = std::numeric_limits<double>::denorm_min(),
+               infinity = std::numeric_limits<double>::infinity();
+  const HalfSpaceBody<double> floor{{0.0, 0.0, 1.0}, 0.0}, beyond{{0.0, 0.0, 1.0}, infinity};
+  const HalfSpaceBody<double> askew{{0.6, 0.0, 0.8}, -most};
+  const auto status = [](const HalfSpaceBody<double>& body, const Vec3<double>& origin,
+                         const Vec3<double>& direction, double t_max) {
+    return cast_ray(body, Ray<double>{origin, direction, t_max}).status;
   };
-  const Vec3<T> down = {T(0), T(0), T(-1)};
-  EXPECT_EQ(status(floor, {T(0), T(0), T(1)}, least * down, infinity), Status::exhausted);
-  EXPECT_EQ(status(floor, {T(0), T(0), T(1)}, least * down, T(1)), Status::miss);
-  EXPECT_EQ(status(floor, {T(0), T(0), most}, down, infinity), Status::hit);
-  EXPECT_EQ(status(askew, {most, T(0), most}, down, infinity), Status::exhausted);
-  EXPECT_EQ(status(beyond, {T(0), T(0), T(0)}, down, infinity), Status::exhausted);
+  const Vec3<double> down = {0.0, 0.0, -1.0};
+  EXPECT_EQ(status(floor, {0.0, 0.0, 1.0}, least * down, infinity), Status::exhausted);
+  EXPECT_EQ(status(floor, {0.0, 0.0, 1.0}, least * down, 1.0), Status::miss);
+  EXPECT_EQ(status(floor, {0.0, 0.0, most}, down, infinity), Status::hit);
+  EXPECT_EQ(status(askew, {most, 0.0, most}, down, infinity), Status::exhausted);
+  EXPECT_EQ(status(beyond, {0.0, 0.0, 0.0}, down, infinity), Status::exhausted);
 
-  if constexpr (std::is_same_v<T, double>) {
+  if constexpr (std::is_same_v<double, double>) {
     Instances instances;
     instances.add(floor);
     const World world(std::move(instances));
@@ -83,32 +77,31 @@ TYPED_TEST(HalfSpaces, a_plane_that_numbers_do_not_reach_is_told) {
 
 /// Some balls and half-spaces; the latter neither first nor last.
 World mixed_world(testing::Random& random) {
-  using T = double;
   Instances instances;
   for (int i = 0; i < 40; ++i) {
     if (i % 10 == 5) {
-      instances.add(HalfSpaceBody<T>{random.direction().template cast<T>(), T(-4 - i * 0.02)});
+      instances.add(
+          HalfSpaceBody<double>{random.direction().cast<double>(), double(-4 - i * 0.02)});
       continue;
     }
-    Sphere<T> ball;
-    ball.radius = T(0.4);
-    instances.add(Shape<T>(ball), {Mat3<T>::Identity(), (3 * random.in_cube()).template cast<T>()});
+    Sphere ball;
+    ball.radius = 0.4;
+    instances.add(Shape(ball), {Mat3<double>::Identity(), (3 * random.in_cube()).cast<double>()});
   }
   return World(std::move(instances));
 }
 
 TEST(HalfSpacesInWorlds, a_world_answers_as_each_of_its_instances_alone_would) {
-  using T = double;
   testing::Random random(2);
   const World world = mixed_world(random);
   int of_half_spaces = 0;
   for (int i = 0; i < 5000; ++i) {
-    const Ray<T> ray = random_ray<T>(random);
+    const Ray<double> ray = ray_nearby(random);
     const auto skip = i % 3 == 0 ? static_cast<std::uint32_t>(random.below(40)) : no_instance;
     WorldHit expected;
     for (std::uint32_t k = 0; k < world.instances().size(); ++k) {
       if (k == skip) continue;
-      CastResult<T> cast;
+      CastResult<double> cast;
       if (world.instances().is_half_space(k)) {
         for (const auto& one : world.instances().half_spaces())
           if (one.instance == k) cast = cast_ray(one.in_world, ray);
@@ -130,7 +123,6 @@ TEST(HalfSpacesInWorlds, a_world_answers_as_each_of_its_instances_alone_would) {
 }
 
 TEST(HalfSpacesInWorlds, rays_together_answer_as_rays_alone) {
-  using T = double;
   testing::Random random(3);
   const World world = mixed_world(random);
   for (int i = 0; i < 300; ++i) {
@@ -139,7 +131,7 @@ TEST(HalfSpacesInWorlds, rays_together_answer_as_rays_alone) {
     std::vector<WorldRay> rays;
     for (std::size_t k = 0; k < count; ++k)
       rays.push_back(
-          {{from.cast<T>(), unit<double>(along + 0.1 * random.in_cube()).template cast<T>()},
+          {{from.cast<double>(), unit<double>(along + 0.1 * random.in_cube()).cast<double>()},
            k % 7 == 0 ? static_cast<std::uint32_t>(random.below(40)) : no_instance});
     std::vector<WorldHit> hits(count);
     QueryCounts counts;
@@ -155,21 +147,21 @@ TEST(HalfSpacesInWorlds, rays_together_answer_as_rays_alone) {
   }
 }
 
-TYPED_TEST(HalfSpaces, turning_and_moving_it_turns_and_moves_the_hit) {
-  using T = TypeParam;
+TEST(HalfSpaces, turning_and_moving_it_turns_and_moves_the_hit) {
   testing::Random random(4);
   for (int i = 0; i < 1000; ++i) {
-    const Affine<T> pose{random.rotation().cast<T>(), random.in_cube().cast<T>()};
-    const HalfSpaceBody<T> body{random.direction().template cast<T>(), T(random.uniform(-1, 1))};
-    const Ray<T> ray = random_ray<T>(random);
-    const CastResult<T> before = cast_ray(body, ray);
-    const CastResult<T> after =
-        cast_ray(body.posed(pose), Ray<T>{pose(ray.origin), Vec3<T>(pose.linear * ray.direction)});
+    const Affine<double> pose{random.rotation().cast<double>(), random.in_cube().cast<double>()};
+    const HalfSpaceBody<double> body{random.direction().cast<double>(),
+                                     double(random.uniform(-1, 1))};
+    const Ray<double> ray = ray_nearby(random);
+    const CastResult<double> before = cast_ray(body, ray);
+    const CastResult<double> after = cast_ray(
+        body.posed(pose), Ray<double>{pose(ray.origin), Vec3<double>(pose.linear * ray.direction)});
     if (before.status != after.status || before.status != Status::hit) continue;
-    const T slack = T(64) * std::numeric_limits<T>::epsilon() * (T(1) + before.t()) /
-                    std::abs(before.normal.dot(ray.direction));
+    const double slack = 64.0 * std::numeric_limits<double>::epsilon() * (1.0 + before.t()) /
+                         std::abs(before.normal.dot(ray.direction));
     EXPECT_NEAR(before.t(), after.t(), slack);
-    EXPECT_LT((pose.linear * before.normal - after.normal).norm(), T(1e-5));
+    EXPECT_LT((pose.linear * before.normal - after.normal).norm(), double(1e-5));
   }
 }
 

@@ -20,8 +20,8 @@ struct Random {
   }
 };
 
-void expect_same_cast(const PreparedShape<double>& a, const PreparedShape<double>& b,
-                      const Ray<double>& ray, int& hits) {
+void expect_same_cast(const PreparedShape& a, const PreparedShape& b, const Ray<double>& ray,
+                      int& hits) {
   const CastResult<double> x = cast_ray(a, ray), y = cast_ray(b, ray);
   ASSERT_EQ(x.status, y.status);
   EXPECT_EQ(x.t_base, y.t_base);
@@ -32,19 +32,19 @@ void expect_same_cast(const PreparedShape<double>& a, const PreparedShape<double
 }
 
 /// Plain, under two maps, and so small that it is brought to another size.
-std::vector<Shape<double>> shapes(Random& random) {
-  const Shape<double> box = Rounded<double>{0.2, Shape<double>(Box<double>{{1, 0.5, 0.4}})};
-  const Shape<double> once = Transform<double>{box, random.pose()};
-  return {Sphere<double>{1}, box, Transform<double>{once, random.pose()},
-          Transform<double>{Shape<double>(Sphere<double>{1e-6}),
-                            Affine<double>{Mat3<double>::Identity() * 1e6, {0, 0, 0}}}};
+std::vector<Shape> shapes(Random& random) {
+  const Shape box = Rounded{0.2, Shape(Box{{1, 0.5, 0.4}})};
+  const Shape once = Transform{box, random.pose()};
+  return {
+      Sphere{1}, box, Transform{once, random.pose()},
+      Transform{Shape(Sphere{1e-6}), Affine<double>{Mat3<double>::Identity() * 1e6, {0, 0, 0}}}};
 }
 
 // A shared definition is to save memory, and nothing else.
 TEST(Instances, posed_definitions_are_cast_at_bit_for_bit_as_shapes_of_their_own) {
   Random random;
   int hits = 0, rays = 0;
-  for (const Shape<double>& shape : shapes(random)) {
+  for (const Shape& shape : shapes(random)) {
     std::vector<Affine<double>> poses(50);
     for (Affine<double>& pose : poses) pose = random.pose();
     poses[7].linear = Mat3<double>::Identity();
@@ -54,7 +54,7 @@ TEST(Instances, posed_definitions_are_cast_at_bit_for_bit_as_shapes_of_their_own
     for (const Affine<double>& pose : poses) one_by_one.add(definition, pose);
     for (std::size_t i = 0; i < poses.size(); ++i)
       for (int k = 0; k < 20; ++k, ++rays) {
-        const PreparedShape<double> own(shape, poses[i]);
+        const PreparedShape own(shape, poses[i]);
         const Vec3<double> origin = 12 * random.vector();
         const Vec3<double> aim = own.centre() + 1.2 * random.vector();
         const Ray<double> ray{origin, aim - origin};
@@ -69,28 +69,26 @@ TEST(Instances, posed_definitions_are_cast_at_bit_for_bit_as_shapes_of_their_own
 
 TEST(Instances, equal_shapes_share_a_definition) {
   Instances instances;
-  const Shape<double> box = Box<double>{{1, 2, 3}};
-  const std::uint32_t first = instances.define(Rounded<double>{0.1, box});
-  EXPECT_EQ(instances.define(Rounded<double>{0.1, Shape<double>(Box<double>{{1, 2, 3}})}), first);
-  EXPECT_NE(instances.define(Rounded<double>{0.2, box}), first);
+  const Shape box = Box{{1, 2, 3}};
+  const std::uint32_t first = instances.define(Rounded{0.1, box});
+  EXPECT_EQ(instances.define(Rounded{0.1, Shape(Box{{1, 2, 3}})}), first);
+  EXPECT_NE(instances.define(Rounded{0.2, box}), first);
   EXPECT_NE(instances.define(box), first);
   const auto made = [&] {
-    return std::make_shared<const ShapeDefinition<double>>(
-        Shape<double>(Rounded<double>{0.1, box}));
+    return std::make_shared<const ShapeDefinition>(Shape(Rounded{0.1, box}));
   };
   EXPECT_EQ(instances.define(made()), first);
   EXPECT_EQ(instances.define(made()), first);
   EXPECT_EQ(instances.definitions(), 3u);
   for (int i = 0; i < 10; ++i)
-    instances.add(Shape<double>(Sphere<double>{double(1 + i % 2)}),
-                  {Mat3<double>::Identity(), {double(i), 0, 0}});
+    instances.add(Shape(Sphere{double(1 + i % 2)}), {Mat3<double>::Identity(), {double(i), 0, 0}});
   EXPECT_EQ(instances.definitions(), 5u);
 }
 
 TEST(Instances, plain_poses_are_returned_as_they_were_given) {
   Random random;
   Instances instances;
-  const std::uint32_t cone = instances.define(Cone<double>{1, 2});
+  const std::uint32_t cone = instances.define(Cone{1, 2});
   std::vector<Affine<double>> poses;
   int plain = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -117,10 +115,10 @@ TEST(Instances, plain_poses_are_returned_as_they_were_given) {
 // Numbers below float's normal range are kept with the map.
 TEST(Instances, maps_that_float_does_not_hold_are_kept_in_full) {
   const Affine<double> pose{Vec3<double>(1e50, 1e-3, 1).asDiagonal(), {1, 2, 3}};
-  const Shape<double> shape = Box<double>{{1, 1, 1}};
+  const Shape shape = Box{{1, 1, 1}};
   Instances instances;
   instances.add(shape, pose);
-  const PreparedShape<double> own(shape, pose), posed = instances.at(0);
+  const PreparedShape own(shape, pose), posed = instances.at(0);
   EXPECT_EQ(*posed.linear_to_inner(), *own.linear_to_inner());
   EXPECT_EQ(posed.centre(), own.centre());
   EXPECT_FALSE(instances.plain_pose(0).has_value());
@@ -134,7 +132,7 @@ TEST(Instances, an_instance_costs_its_pose_however_large_its_shape) {
   for (Vec3<double>& point : points) point = random.vector();
   Instances hulls;
   const std::size_t count = 10000;
-  hulls.add_many(hulls.define(Hull<double>{PointCloud<double>(points)}), count, [&](std::size_t i) {
+  hulls.add_many(hulls.define(Hull{PointCloud(points)}), count, [&](std::size_t i) {
     return Affine<double>{Mat3<double>(rotation_matrix(1.0, 2.0, 3.0, double(i))),
                           {double(i), 0, 0}};
   });
@@ -151,7 +149,7 @@ TEST(Instances, boxes_hold_their_instances_tightly) {
   const Vec3<double> half(1, 2, 3);
   for (int i = 0; i < 200; ++i) {
     poses.push_back(random.pose());
-    instances.add(Box<double>{half}, poses.back());
+    instances.add(Box{half}, poses.back());
   }
   const FirstTouchVector<Bounds<float>> boxes = instances.take_boxes();
   for (std::size_t i = 0; i < boxes.size(); ++i) {

@@ -25,7 +25,7 @@ World mixed_world(int seed) {
   for (int i = 0; i < 60; ++i) {
     const Affine<double> pose = random_pose(random, 5);
     if (i % 3 == 0)
-      instances.add(Box<double>{{0.3, 0.4, 0.5}}, pose);
+      instances.add(Box{{0.3, 0.4, 0.5}}, pose);
     else
       instances.add(i % 3 == 1 ? ball : ring, pose);
   }
@@ -101,7 +101,7 @@ TEST(MeshWorld, a_block_of_triangles_is_met_where_the_box_is) {
     Affine<double> pose = random_pose(random, far);
     Instances of_mesh, of_box;
     of_mesh.add(block, pose);
-    of_box.add(Box<double>{{0.3, 0.4, 0.5}}, pose);
+    of_box.add(Box{{0.3, 0.4, 0.5}}, pose);
     const World mesh(std::move(of_mesh)), box(std::move(of_box));
     for (int k = 0; k < 50; ++k) {
       const Vec3<double> from = pose.translation + 3 * random.direction();
@@ -148,7 +148,7 @@ TEST(MeshWorld, a_ray_that_leaves_a_mesh_meets_what_is_beyond_and_not_where_it_b
 TEST(MeshWorld, is_shown_to_some_rays_only_and_moves) {
   Instances instances;
   instances.add(testing::block({1, 1, 1}).shared(), {});
-  instances.add(Sphere<double>{0.5}, {Mat3<double>::Identity(), {0, 0, 5}});
+  instances.add(Sphere{0.5}, {Mat3<double>::Identity(), {0, 0, 5}});
   instances.show_to(0, 2);
   World world(std::move(instances));
   QueryCounts counts;

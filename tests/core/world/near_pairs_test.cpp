@@ -94,7 +94,7 @@ TEST(NearPairs, the_nearest_bodies_are_those_of_a_look_at_all) {
 /// nothing else was searched.
 TEST(NearPairs, what_is_at_an_unknown_distance_is_not_the_nearest) {
   const auto ball_at = [](double x) {
-    return ContactBody{ContactShape(Shape<double>(Sphere<double>{1})),
+    return ContactBody{ContactShape(Shape(Sphere{1})),
                        {Mat3<double>::Identity(), Vec3<double>(x, 0, 0)}};
   };
   for (const bool is_first : {true, false}) {
@@ -115,8 +115,8 @@ TEST(NearPairs, what_is_at_an_unknown_distance_is_not_the_nearest) {
     EXPECT_TRUE(far[0].distance.is_unknown());
   }
   // An infinite body may be near.
-  const ContactBody infinite{
-      ContactShape(Shape<double>(Sphere<double>{std::numeric_limits<double>::infinity()})), {}};
+  const ContactBody infinite{ContactShape(Shape(Sphere{std::numeric_limits<double>::infinity()})),
+                             {}};
   const ContactWorld world({infinite, ball_at(9)});
   EXPECT_EQ(nearest_bodies(ball_at(0), world, 1).at(0).b, 1u);
   EXPECT_EQ(near_pairs(world, {}).size(), 1u);

@@ -19,12 +19,12 @@ Pose at(const Vec3<double>& place) {
 /// `copies` of a turned box at the origin, between a near and a far sphere.
 Instances pile(std::size_t copies) {
   Instances instances;
-  instances.add(Shape<double>{Sphere<double>{0.5}}, at({0, 0, 20}));
+  instances.add(Shape{Sphere{0.5}}, at({0, 0, 20}));
   const Mat3<double> turn =
       Eigen::AngleAxisd(0.3, Vec3<double>(1, 2, 3).normalized()).toRotationMatrix();
-  const std::uint32_t box = instances.define(Shape<double>{Box<double>{{1, 2, 0.5}}});
+  const std::uint32_t box = instances.define(Shape{Box{{1, 2, 0.5}}});
   for (std::size_t i = 0; i < copies; ++i) instances.add(box, Pose{turn, Vec3<double>::Zero()});
-  instances.add(Shape<double>{Sphere<double>{0.5}}, at({0, 0, -20}));
+  instances.add(Shape{Sphere{0.5}}, at({0, 0, -20}));
   return instances;
 }
 
@@ -83,7 +83,7 @@ TEST(Repeated, instances_that_are_moved_apart_are_found) {
 
 TEST(Repeated, what_no_ray_meets_costs_none) {
   Instances instances = pile(1);
-  instances.add(Shape<double>{Point<double>{}}, at({0, 0, 5}));
+  instances.add(Shape{Point{}}, at({0, 0, 5}));
   instances.replace(0, instances.definition_of(1));
   instances.replace(2, instances.definition_of(1));
   instances.set_pose(0, at({0, 0, 20}));

@@ -89,7 +89,7 @@ TEST(WorldManyRays, half_spaces_and_instances_on_the_move) {
 
 TEST(WorldManyRays, other_solvers_find_what_they_find_alone) {
   Scatter random;
-  CastOptions<double> impatient;
+  CastOptions impatient;
   impatient.solver = SolverKind::paper;
   impatient.max_iterations = 3;
   const World world(scattered_instances(200, random), impatient);

@@ -65,8 +65,7 @@ TEST(WorldRays, of_instances_at_the_same_t_the_first_is_met) {
     std::vector<Affine<double>> poses;
     for (int i = 0; i < 50; ++i) poses.push_back(random.pose(5));
     for (int copy = 0; copy < 3; ++copy) {
-      for (const Affine<double>& pose : poses)
-        pairs.add(Shape<double>(Box<double>{{1, 0.5, 0.4}}), pose);
+      for (const Affine<double>& pose : poses) pairs.add(Shape(Box{{1, 0.5, 0.4}}), pose);
       if (backwards) std::reverse(poses.begin(), poses.end());
     }
     const World world(std::move(pairs));
@@ -90,7 +89,7 @@ TEST(WorldRays, of_instances_at_the_same_t_the_first_is_met) {
 // Rays that come together find what is exhausted, too.
 TEST(WorldRays, other_solvers_are_asked_one_by_one) {
   Scatter random;
-  CastOptions<double> impatient;
+  CastOptions impatient;
   impatient.solver = SolverKind::paper;
   impatient.max_iterations = 3;
   const World world(scattered_shapes(100, random), impatient);
@@ -149,10 +148,8 @@ TEST(WorldRays, blocks_of_camera_rays_answer_as_single_rays) {
     with_planes.add(HalfSpaceBody<double>{Vec3<double>(0, 1, 0), -11});
     worlds.emplace_back(std::move(with_planes));
   }
-  for (const Shape<double>& shape :
-       {Shape<double>(Sphere<double>{0.7}),
-        Shape<double>(Rounded<double>{0.1, Shape<double>(Box<double>{{0.6, 0.5, 0.3}})}),
-        Shape<double>(Cone<double>{0.5, 0.8})}) {
+  for (const Shape& shape : {Shape(Sphere{0.7}), Shape(Rounded{0.1, Shape(Box{{0.6, 0.5, 0.3}})}),
+                             Shape(Cone{0.5, 0.8})}) {
     Instances one_kind;
     for (int i = 0; i < 500; ++i) one_kind.add(shape, random.pose(8));
     worlds.emplace_back(std::move(one_kind));
@@ -162,7 +159,7 @@ TEST(WorldRays, blocks_of_camera_rays_answer_as_single_rays) {
     for (int i = 0; i < 200; ++i) {
       std::vector<Vec3<double>> points;
       for (int k = 0; k < 8 + i % 90; ++k) points.push_back(random.point(0.8));
-      hulls.add(Shape<double>(Hull<double>{PointCloud<double>(points)}), random.pose(6));
+      hulls.add(Shape(Hull{PointCloud(points)}), random.pose(6));
     }
     worlds.emplace_back(std::move(hulls));
   }
@@ -195,7 +192,7 @@ TEST(WorldRays, rays_of_a_block_meet_what_is_shown_to_their_kind) {
 TEST(WorldRays, moved_instances_answer_as_if_built_where_they_are) {
   Scatter random;
   std::vector<Affine<double>> poses(400);
-  const Shape<double> shape = Rounded<double>{0.1, Shape<double>(Box<double>{{0.6, 0.5, 0.3}})};
+  const Shape shape = Rounded{0.1, Shape(Box{{0.6, 0.5, 0.3}})};
   const auto pose_of = [&](std::size_t i) { return poses[i]; };
   const auto instances = [&] {
     Instances made;
@@ -237,7 +234,7 @@ TEST(World, thin_and_large_shapes_are_met_by_rays_of_any_length) {
   for (const double length : {0.01, 1.0, 2.0, 4.0, 100.0}) {
     for (const double scale : {1.0, 0x1p-30, 0x1p30}) {
       Instances instances;
-      instances.add(Shape<double>(Box<double>{{scale, scale, 1e-7 * scale}}));
+      instances.add(Shape(Box{{scale, scale, 1e-7 * scale}}));
       instances.add(HalfSpaceBody<double>{{0, 0, 1}, -scale});
       const World world(std::move(instances));
       const Ray<double> ray{{0.1 * scale, 0.2 * scale, 3 * scale}, {0, 0, -length}};

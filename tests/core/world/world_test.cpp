@@ -11,20 +11,20 @@ namespace {
 using testing::Scatter;
 
 Instances scattered_with_disks(int count, Scatter& random) {
-  const std::vector<Shape<double>> kinds = {
-      Sphere<double>{0.7},
-      Rounded<double>{0.1, Shape<double>(Box<double>{{0.6, 0.5, 0.3}})},
-      Ellipsoid<double>{{1, 0.5, 0.2}},
-      Cylinder<double>{0.3, 0.8},
-      Disk<double>{0.8},
-      Triangle<double>{{Vec3<double>(0, 0, 0), Vec3<double>(1, 0, 0), Vec3<double>(0, 1, 0)}}};
+  const std::vector<Shape> kinds = {
+      Sphere{0.7},
+      Rounded{0.1, Shape(Box{{0.6, 0.5, 0.3}})},
+      Ellipsoid{{1, 0.5, 0.2}},
+      Cylinder{0.3, 0.8},
+      Disk{0.8},
+      Triangle{{Vec3<double>(0, 0, 0), Vec3<double>(1, 0, 0), Vec3<double>(0, 1, 0)}}};
   Instances shapes;
   for (int i = 0; i < count; ++i)
     shapes.add(kinds[static_cast<std::size_t>(i) % kinds.size()], random.pose(6));
   return shapes;
 }
 
-Instances only(const Shape<double>& shape) {
+Instances only(const Shape& shape) {
   Instances instances;
   instances.add(shape);
   return instances;
@@ -86,7 +86,7 @@ TEST(World, empty_worlds_and_rays_from_inside) {
   EXPECT_FALSE(World().occluded(ray, counts));
   EXPECT_EQ(World().closest_hit(ray, counts).cast.status, Status::miss);
 
-  const World around(only(Sphere<double>{1}));
+  const World around(only(Sphere{1}));
   EXPECT_EQ(around.closest_hit(ray, counts).cast.status, Status::inside);
   EXPECT_EQ(around.closest_hit(ray, counts).cast.t(), 0);
   EXPECT_TRUE(around.occluded(ray, counts));
@@ -94,10 +94,10 @@ TEST(World, empty_worlds_and_rays_from_inside) {
 
 // Casts that do not converge must be visible: the reader of a picture trusts its black.
 TEST(World, exhausted_casts_are_counted_and_taken_for_neither) {
-  CastOptions<double> impatient;
+  CastOptions impatient;
   impatient.solver = SolverKind::paper;
   impatient.max_iterations = 1;
-  const World world(only(Box<double>{{1, 1, 1}}), impatient);
+  const World world(only(Box{{1, 1, 1}}), impatient);
   QueryCounts counts;
   const WorldHit hit = world.closest_hit({{-3, 0.2, 0.1}, {1, 0, 0}}, counts);
   EXPECT_FALSE(hit.found());

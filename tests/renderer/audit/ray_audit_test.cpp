@@ -12,12 +12,12 @@ namespace {
 /// Two balls on a plate, in a row along x.
 Scene row_of_balls() {
   Scene scene;
-  const auto add = [&](const char* name, Shape<double> shape, const Vec3<double>& at) {
+  const auto add = [&](const char* name, Shape shape, const Vec3<double>& at) {
     scene.objects.push_back({name, std::move(shape), {Mat3<double>::Identity(), at}, 0});
   };
-  add("near", Sphere<double>{1}, {0, 0, 1});
-  add("far", Sphere<double>{1}, {5, 0, 1});
-  add("plate", Box<double>{{10, 10, 0.5}}, {0, 0, -0.5});
+  add("near", Sphere{1}, {0, 0, 1});
+  add("far", Sphere{1}, {5, 0, 1});
+  add("plate", Box{{10, 10, 0.5}}, {0, 0, -0.5});
   return scene;
 }
 

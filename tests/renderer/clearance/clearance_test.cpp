@@ -33,7 +33,7 @@ struct Around {
     ground = -1 - in(engine);
     Object one, plane;
     one.name = "ball";
-    one.shape = Sphere<double>{0.15};
+    one.shape = Sphere{0.15};
     one.pose.translation = middle;
     plane.name = "ground";
     plane.half_space = HalfSpaceBody<double>{{0, 0, 1}, static_cast<double>(ground)};
@@ -207,8 +207,7 @@ TEST(Clearance, a_million_points_of_the_links_lie_in_the_swept_bodies) {
         for (int part = 0; part < parts; ++part) {
           const double begin = part / double(parts), end = (part + 1) / double(parts);
           const Affine<double> from = pose(begin), to = pose(end);
-          const Shape<double> body =
-              swept(*geom.shape, from, to, bound.acceleration / (parts * parts));
+          const Shape body = swept(*geom.shape, from, to, bound.acceleration / (parts * parts));
           for (int i = 0; i < 140; ++i) {
             const double s = in(engine);
             const Affine<double> there = pose(begin + s * (end - begin));
@@ -263,13 +262,13 @@ TEST(Clearance, particles_are_obstacles_as_objects_are) {
   const JointPath path(model, {{0, {{"elbow", {0.0}}}}, {1, {{"elbow", {1.5}}}}});
   Object ball;
   ball.name = "ball";
-  ball.shape = Sphere<double>{0.5};
+  ball.shape = Sphere{0.5};
   ball.pose.translation = {0.2, -1.2, 1.6};
   Scene with_objects, with_particles;
   with_objects.objects = {ball};
   ParticleSet grains;
   grains.name = "grains";
-  grains.shape = Sphere<double>{0.25};
+  grains.shape = Sphere{0.25};
   grains.materials = {0};
   grains.scale_numbers = 1;
   grains.poses = {9, 9, 9, 1, 0.2, -1.2, 1.6, 2};
@@ -302,12 +301,12 @@ TEST(Clearance, quaternions_turn_alike_whatever_their_length) {
   ModelGeom rod;
   rod.link = 0;
   rod.kind = "capsule";
-  rod.shape = Shape<double>(Capsule<double>{0.1, 2.5});
+  rod.shape = Shape(Capsule{0.1, 2.5});
   rod.pose = {rotation_matrix(0.0, std::sqrt(0.5), 0.0, std::sqrt(0.5)), {2.5, 0, 0}};
   model.geoms = {rod};
   Scene scene;
   Object ball;
-  ball.shape = Sphere<double>{1};
+  ball.shape = Sphere{1};
   ball.pose.translation = {0, 4, 0};
   scene.objects = {ball};
   std::vector<ClearanceBody> bodies = bodies_of(model, GeometryChoice::collision);
@@ -364,11 +363,11 @@ TEST(Clearance, nothing_is_proven_of_what_goes_further_than_numbers_reach) {
   ModelGeom ball;
   ball.name = "ball";
   ball.link = 1;
-  ball.shape = Shape<double>(Sphere<double>{1});
+  ball.shape = Shape(Sphere{1});
   model.geoms = {ball};
   std::vector<ClearanceBody> bodies = bodies_of(model, GeometryChoice::collision);
   Scene scene;
-  scene.objects.emplace_back().shape = Sphere<double>{1};
+  scene.objects.emplace_back().shape = Sphere{1};
   scene.objects[0].pose.translation = {9, 0, 0};
   bodies.push_back(bodies_of(scene).front());
   const std::vector<BodyPair> pairs = pairs_of(bodies, model, {}, true);
@@ -401,7 +400,7 @@ TEST(Clearance, more_pairs_than_ten_million_are_refused) {
   ModelLink link;
   link.joints.push_back({.name = "slide", .kind = JointKind::slide});
   model.links.assign(100'000, link);
-  const ContactShape ball(Shape<double>(Sphere<double>{1}));
+  const ContactShape ball(Shape(Sphere{1}));
   std::vector<ClearanceBody> bodies;
   for (int i = 0; i < 100'000; ++i) bodies.push_back({"ball", "link", i, ball});
   EXPECT_THROW(pairs_of(bodies, model, {}, true), BadInput);

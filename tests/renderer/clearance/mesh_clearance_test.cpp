@@ -17,8 +17,8 @@ namespace {
 
 using testing::RandomPath;
 
-Shape<double> box(const Vec3<double>& half) {
-  return Box<double>{half};
+Shape box(const Vec3<double>& half) {
+  return Box{half};
 }
 
 /// The arm with a block in its hand and blocks around it, as shapes or as meshes.
@@ -144,8 +144,8 @@ TEST(MeshClearance, a_rod_goes_through_a_ring_whose_hull_it_crosses) {
   EXPECT_TRUE(found.is_settled);
   bodies.back() = bodies_of(around)[0];
   bodies.back().mesh = nullptr;
-  bodies.back().shape = ContactShape(Shape<double>(Hull<double>{
-      PointCloud<double>({ring.mesh->vertices().begin(), ring.mesh->vertices().end()})}));
+  bodies.back().shape = ContactShape(
+      Shape(Hull{PointCloud({ring.mesh->vertices().begin(), ring.mesh->vertices().end()})}));
   bodies.back().middle = placed_middle(bodies.back().shape, {});
   EXPECT_LT(least(bodies).upper, 0);
 }

@@ -19,7 +19,7 @@ PosedBodies scattered_bodies(std::size_t count, std::mt19937& random) {
   std::normal_distribution<double> turn;
   PosedBodies posed;
   for (std::size_t i = 0; i < count; ++i) {
-    const Shape<double> shape = i % 2 == 0 ? cube_of(0.3) : Shape<double>(Sphere<double>{0.4});
+    const Shape shape = i % 2 == 0 ? cube_of(0.3) : Shape(Sphere{0.4});
     posed.bodies.push_back({"body", "", -1, ContactShape(shape)});
     if (i % 10 == 9)
       posed.bodies.back().plane = PlacedPlane::of(Vec3<double>(0, 0, 1), -3, Affine<double>());

@@ -40,7 +40,7 @@ Scene scene_of_balls(const std::vector<std::pair<Vec3<double>, double>>& balls) 
   for (const auto& [middle, radius] : balls) {
     Object& object = scene.objects.emplace_back();
     object.name = "ball";
-    object.shape = Sphere<double>{radius};
+    object.shape = Sphere{radius};
     object.pose.translation = middle;
   }
   return scene;
@@ -66,7 +66,7 @@ Model turning_ball(const Vec3<double>& hinge, double arm, double radius) {
   ModelGeom ball;
   ball.link = 1;
   ball.kind = "sphere";
-  ball.shape = Shape<double>(Sphere<double>{radius});
+  ball.shape = Shape(Sphere{radius});
   ball.pose.translation = {arm, 0, 0};
   model.geoms = {ball};
   return model;
@@ -158,7 +158,7 @@ TEST(Places, carts_have_the_clearance_that_they_have_nearby) {
       ModelGeom ball;
       ball.link = 0;
       ball.kind = "sphere";
-      ball.shape = Shape<double>(Sphere<double>{0.25});
+      ball.shape = Shape(Sphere{0.25});
       model.geoms = {ball};
       std::vector<JointRow> rows;
       if (k % 2 == 0) {
@@ -199,7 +199,7 @@ TEST(Places, fields_are_the_same) {
     const Vec3<double> way = random.at(place);
     Scene here = scene_of_balls({{{0, 0, 0}, 0.5}, {{1.5, 0.25, 0}, 0.25}}), there;
     Object box;
-    box.shape = Box<double>{{0.25, 0.5, 0.125}};
+    box.shape = Box{{0.25, 0.5, 0.125}};
     box.pose.translation = {-1, 0.5, 0};
     Object ground;
     ground.half_space = HalfSpaceBody<double>();
@@ -208,7 +208,7 @@ TEST(Places, fields_are_the_same) {
     here.objects.push_back(ground);
     there = here;
     for (Object& object : there.objects) object.pose.translation += way;
-    const Shape<double> probe = Sphere<double>{0.0625};
+    const Shape probe = Sphere{0.0625};
     FieldPlane plane{16, 16, {-2, -2, 0}, {0.25, 0, 0}, {0, 0.25, 0}};
     const DistanceField near = measure_field(here, probe, plane, {});
     plane.corner += way;

@@ -36,7 +36,7 @@ class CutCylinderSupport final : public SupportSource {
   }
 };
 
-const Shape<double> cut_cylinder = Custom<double>{std::make_shared<const CutCylinderSupport>()};
+const Shape cut_cylinder = Custom{std::make_shared<const CutCylinderSupport>()};
 constexpr int ray_count = 100000;
 
 TEST(CustomShapeSandwich, holds_for_a_cylinder_that_is_cut_obliquely) {

@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, EmbreeSandwichOfSolvers, ::testing::ValuesIn(s
 TEST(SampleShapes, leave_out_no_kind) {
   std::set<std::size_t> kinds;
   for (const SampleShape& sample : sample_shapes()) kinds.insert(sample.shape.kind.index());
-  for_each_shape_kind<double>([&, i = std::size_t{0}]<class S>() mutable {
+  for_each_shape_kind([&, i = std::size_t{0}]<class S>() mutable {
     EXPECT_TRUE(kinds.contains(i++)) << S::name << " is not in tests/support/sample_shapes.cpp";
   });
 }
@@ -110,7 +110,7 @@ TEST_P(EmbreeSandwichOfNestings, holds) {
   constexpr int nestings = 50;
   for (int i = 0; i < nestings; ++i) {
     const auto seed = static_cast<std::uint64_t>(GetParam() * nestings + i);
-    const Shape<double> shape = random_nesting(seed);
+    const Shape shape = random_nesting(seed);
     CompareOptions options;
     options.rays = 2000;
     options.seed = seed;
@@ -124,10 +124,10 @@ INSTANTIATE_TEST_SUITE_P(Fifty, EmbreeSandwichOfNestings, ::testing::Range(0, 5)
 
 /// A caster that is wrong by a thousandth of the shape must be caught.
 TEST(EmbreeSandwich, catches_a_shape_that_is_off_by_little) {
-  const Shape<double> box = Box<double>{{1, 0.5, 0.25}};
-  const Sandwich sandwich = sandwich_of(Box<double>{{1.001, 0.5, 0.25}});
+  const Shape box = Box{{1, 0.5, 0.25}};
+  const Sandwich sandwich = sandwich_of(Box{{1.001, 0.5, 0.25}});
   const EmbreeMesh inner(sandwich.inner);
-  const PreparedShape<double> prepared(box);
+  const PreparedShape prepared(box);
   const Vec3<double> axis = Vec3<double>::UnitX();
   const Ray<float> ray{
       sandwich.frame.to_frame(5 * axis).cast<float>(),

@@ -14,7 +14,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Object ball_at(double x, double radius) {
   Object object;
-  object.shape = Sphere<double>{radius};
+  object.shape = Sphere{radius};
   object.pose.translation = Vec3<double>(x, 0, 0);
   return object;
 }
@@ -24,7 +24,7 @@ DistanceField field_of(const std::vector<Object>& objects) {
   scene.objects = objects;
   const FieldPlane plane =
       plane_facing(Vec3<double>(0, 0, 0), Vec3<double>(0, 0, 1), 4, width, height);
-  return measure_field(scene, Point<double>(), plane, {});
+  return measure_field(scene, Point(), plane, {});
 }
 
 /// Calls f(pixel, its place).

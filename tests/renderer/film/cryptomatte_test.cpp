@@ -26,10 +26,8 @@ TEST(Cryptomatte, covers_what_the_picture_covers) {
   scene.camera.position = {0, -6, 0};
   scene.materials = {{"matt", LambertMaterial{}}};
   for (const double x : {-0.7, 0.7})
-    scene.objects.push_back({x < 0 ? "left" : "right",
-                             Sphere<double>{0.8},
-                             {Mat3<double>::Identity(), {x, 0.1 * x, 0}},
-                             0});
+    scene.objects.push_back(
+        {x < 0 ? "left" : "right", Sphere{0.8}, {Mat3<double>::Identity(), {x, 0.1 * x, 0}}, 0});
   const World world = make_world(scene);
   RenderOptions options;
   options.resolution = {40, 30};

@@ -24,8 +24,8 @@ Scene two_objects() {
   scene.camera.position = {1, -6, 2};
   scene.camera.look_at = {0, 0, 0};
   scene.materials = {{"matt", LambertMaterial{}}};
-  scene.objects = {{"box", Box<double>{{4, 0.5, 1}}, at(0, 4, 0), 0},
-                   {"ball", Sphere<double>{radius}, at(0, 0, 0), 0}};
+  scene.objects = {{"box", Box{{4, 0.5, 1}}, at(0, 4, 0), 0},
+                   {"ball", Sphere{radius}, at(0, 0, 0), 0}};
   return scene;
 }
 
@@ -102,9 +102,9 @@ TEST(DataChannelsOfOneCast, are_its_iterations_supports_gap_and_status) {
   scene.camera.position = {1, -6, 2};
   scene.camera.look_at = {0, 0, 0};
   scene.materials = {{"matt", LambertMaterial{}}};
-  const Shape<double> shape = Ellipsoid<double>{{2, 0.5, 1}};
+  const Shape shape = Ellipsoid{{2, 0.5, 1}};
   scene.objects = {{"egg", shape, Affine<double>{Mat3<double>::Identity(), {0, 0, 0}}, 0}};
-  CastOptions<double> cast_options;
+  CastOptions cast_options;
   cast_options.solver = SolverKind::paper;
   RenderOptions options;
   options.resolution = {32, 24};
@@ -117,7 +117,7 @@ TEST(DataChannelsOfOneCast, are_its_iterations_supports_gap_and_status) {
     const auto number = [&](std::size_t plane, std::size_t pixel) {
       return std::get<std::vector<std::uint32_t>>(planes[plane].values)[pixel];
     };
-    const PreparedShape<double> prepared(shape);
+    const PreparedShape prepared(shape);
     const Camera camera(scene.camera, options.resolution);
     for (std::size_t i = 0; i < 32 * 24; ++i) {
       const Ray<double> ray =
@@ -147,7 +147,7 @@ TEST(DataChannelsOfOneCast, are_its_iterations_supports_gap_and_status) {
   cast_options.max_iterations = 2;  // does not converge
   check();
   EXPECT_TRUE(statuses.contains(3u));
-  cast_options.max_iterations = CastOptions<double>().max_iterations;
+  cast_options.max_iterations = CastOptions().max_iterations;
   scene.camera.position = {0.1, 0.1, 0.1};  // from within
   check();
   EXPECT_EQ(statuses, (std::set<std::uint32_t>{0, 1, 2, 3}));

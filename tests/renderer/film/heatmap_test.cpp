@@ -17,12 +17,11 @@ Scene two_balls() {
   scene.camera.look_at = {0, 0, 0};
   scene.materials = {{"matt", LambertMaterial{}}};
   for (const double x : {-0.8, 0.8})
-    scene.objects.push_back(
-        {"ball", Sphere<double>{0.7}, {Mat3<double>::Identity(), {x, 0, 0}}, 0});
+    scene.objects.push_back({"ball", Sphere{0.7}, {Mat3<double>::Identity(), {x, 0, 0}}, 0});
   return scene;
 }
 
-HeatField measure(const Scene& scene, HeatChannel channel, const CastOptions<double>& cast = {},
+HeatField measure(const Scene& scene, HeatChannel channel, const CastOptions& cast = {},
                   int samples = 1) {
   RenderOptions options;
   options.resolution = {60, 40};
@@ -31,8 +30,8 @@ HeatField measure(const Scene& scene, HeatChannel channel, const CastOptions<dou
 }
 
 /// Uses the models: a ball's closed form costs no iteration.
-CastOptions<double> by_models() {
-  CastOptions<double> options;
+CastOptions by_models() {
+  CastOptions options;
   options.solver = SolverKind::jet;
   return options;
 }
@@ -78,7 +77,7 @@ TEST(Heatmap, status_tells_hit_inside_and_exhausted) {
   inside.camera.position = {0.8, 0, 0};
   EXPECT_EQ(statuses(measure(inside, HeatChannel::status)), std::set<float>{2});
 
-  CastOptions<double> impatient;
+  CastOptions impatient;
   impatient.solver = SolverKind::paper;
   impatient.max_iterations = 2;
   const HeatField field = measure(two_balls(), HeatChannel::status, impatient);

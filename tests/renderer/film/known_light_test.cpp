@@ -38,7 +38,7 @@ Scene one_ball(const Material& material) {
   scene.camera.resolution = {100, 100};
   scene.background = {Colour::Zero(), Colour::Zero()};
   scene.materials = {material};
-  scene.objects = {{"ball", Sphere<double>{1}, {}, 0}};
+  scene.objects = {{"ball", Sphere{1}, {}, 0}};
   return scene;
 }
 
@@ -81,7 +81,7 @@ TEST(Integrator, a_point_light_fades_with_the_square_of_the_distance) {
 
 TEST(Integrator, shadows_fall_and_end_at_the_light) {
   Scene scene = one_ball({"matt", LambertMaterial{Colour::Ones()}});
-  scene.objects.push_back({"shade", Disk<double>{0.5}, shifted_by(0, -1, 3), 0});
+  scene.objects.push_back({"shade", Disk{0.5}, shifted_by(0, -1, 3), 0});
   scene.lights = {PointLight{{0, -1.2, 5}, Colour::Constant(5)}};
   const double y = 30;  // the ball's upper half
   EXPECT_EQ(radiance(scene, 50, y), Colour::Zero());
@@ -98,9 +98,9 @@ TEST(Integrator, faces_in_one_plane_have_no_acne) {
   const auto tilted = [&](const Vec3<double>& centre) {
     return Affine<double>{turned, Vec3<double>(turned * centre)};
   };
-  scene.objects = {{"a", Box<double>{{3, 3, 0.3}}, tilted({0, 0, -0.3}), 0},
-                   {"b", Box<double>{{1, 1, 0.7}}, tilted({0.5, 0, -0.7}), 0},
-                   {"c", Box<double>{{1, 1, 0.7}}, tilted({0.5, 0, -0.7}), 0}};
+  scene.objects = {{"a", Box{{3, 3, 0.3}}, tilted({0, 0, -0.3}), 0},
+                   {"b", Box{{1, 1, 0.7}}, tilted({0.5, 0, -0.7}), 0},
+                   {"c", Box{{1, 1, 0.7}}, tilted({0.5, 0, -0.7}), 0}};
   const Vec3<double> up = turned.col(2);
   scene.lights = {DirectionalLight{-up, Colour::Constant(std::numbers::pi)}};
   int seen = 0;
@@ -141,8 +141,8 @@ TEST(Integrator, a_wall_hides_half_of_the_sky) {
   Scene scene = one_ball({"matt", LambertMaterial{Colour::Ones()}});
   scene.camera.position = {-3, 0, 4};
   scene.camera.look_at = {-1e-6, 0, 0};
-  scene.objects = {{"floor", Box<double>{{1e4, 1e4, 1}}, shifted_by(0, 0, -1), 0},
-                   {"wall", Box<double>{{1, 1e4, 1e4}}, shifted_by(1, 0, 0), 0}};
+  scene.objects = {{"floor", Box{{1e4, 1e4, 1}}, shifted_by(0, 0, -1), 0},
+                   {"wall", Box{{1, 1e4, 1e4}}, shifted_by(1, 0, 0), 0}};
   scene.lights = {EnvironmentLight{Colour::Ones(), Colour::Ones()}};
   EXPECT_NEAR(radiance(scene, 50, 50, 4096, {.bounces = 0}).x(), 0.5, 2e-3);
 }

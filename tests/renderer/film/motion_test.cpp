@@ -16,8 +16,8 @@ std::array<double, 4> about_z(double angle) {
   return {0, 0, std::sin(angle / 2), std::cos(angle / 2)};
 }
 
-Shape<double> rounded_box() {
-  return Rounded<double>{0.1, Shape<double>(Box<double>{{0.5, 0.3, 0.2}})};
+Shape rounded_box() {
+  return Rounded{0.1, Shape(Box{{0.5, 0.3, 0.2}})};
 }
 
 /// A rounded box that flies and turns, a ball that rises, and a floor that does not move.
@@ -29,9 +29,9 @@ Scene flight(double shutter) {
                   EnvironmentLight{{0.7, 0.8, 1.0}, {0.3, 0.3, 0.3}}};
   scene.materials = {{"matt", LambertMaterial{{0.7, 0.6, 0.5}}},
                      {"shiny", GlossyMaterial{{0.2, 0.3, 0.7}, 0.0, 1.5}}};
-  scene.objects = {{"floor", Box<double>{{20, 20, 1}}, {Mat3<double>::Identity(), {0, 0, -2}}, 1},
+  scene.objects = {{"floor", Box{{20, 20, 1}}, {Mat3<double>::Identity(), {0, 0, -2}}, 1},
                    {"box", rounded_box(), {}, 0},
-                   {"ball", Sphere<double>{0.5}, {}, 0}};
+                   {"ball", Sphere{0.5}, {}, 0}};
   // Tilted: where a normal is horizontal but for rounding, the frame that scattered rays are drawn
   // in may be one or the other.
   const Affine<double> tilt{rotation_matrix(0.2, 0.15, 0.0, 1.0), {0, 0, 0}};

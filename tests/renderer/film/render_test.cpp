@@ -23,10 +23,10 @@ Scene still_life() {
   scene.materials = {{"floor", GlossyMaterial{Colour::Constant(0.5), 0.1, 1.5}},
                      {"red", GlossyMaterial{{0.8, 0.2, 0.1}, 0.0, 1.5}},
                      {"blue", LambertMaterial{{0.1, 0.3, 0.8}}}};
-  const Shape<double> box(Box<double>{{0.5, 0.4, 0.3}});
-  scene.objects = {{"floor", Box<double>{{50, 50, 1}}, shifted_by(0, 0, -1), 0},
-                   {"ball", Sphere<double>{0.8}, shifted_by(-1.2, 0, 0.8), 1},
-                   {"rounded box", Rounded<double>{0.2, box}, shifted_by(0.8, 0, 0.5), 2}};
+  const Shape box(Box{{0.5, 0.4, 0.3}});
+  scene.objects = {{"floor", Box{{50, 50, 1}}, shifted_by(0, 0, -1), 0},
+                   {"ball", Sphere{0.8}, shifted_by(-1.2, 0, 0.8), 1},
+                   {"rounded box", Rounded{0.2, box}, shifted_by(0.8, 0, 0.5), 2}};
   return scene;
 }
 
@@ -55,9 +55,8 @@ TEST(Render, the_same_bits_for_any_number_of_threads) {
 /// Turned boxes and others, as many as may be, that shade each other, in light of every kind.
 Scene heap() {
   Scene scene = still_life();
-  const Shape<double> box(Box<double>{{0.2, 0.15, 0.1}});
-  const std::vector<Shape<double>> kinds = {Rounded<double>{0.05, box}, Sphere<double>{0.25},
-                                            Cylinder<double>{0.15, 0.2}, box};
+  const Shape box(Box{{0.2, 0.15, 0.1}});
+  const std::vector<Shape> kinds = {Rounded{0.05, box}, Sphere{0.25}, Cylinder{0.15, 0.2}, box};
   Sampler places(77, 0, 0, 0);
   for (std::size_t i = 0; i < 300; ++i) {
     const auto [a, b] = places.next();

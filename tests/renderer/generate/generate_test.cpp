@@ -49,7 +49,7 @@ TEST(Generate, no_two_ellipsoids_of_the_packing_overlap) {
   const TemporaryFolder folder;
   generate_scene({"ellipsoids", 1200, 1}, folder / "packing.json");
   const Scene scene = load_scene(folder / "packing.json");
-  std::vector<CentredShape<double>> shapes;
+  std::vector<CentredShape> shapes;
   for (std::size_t i = 0; i < instance_count(scene); ++i) {
     const Object object = instance_object(scene, i);
     shapes.push_back(centred(object.shape, object.pose));

@@ -24,9 +24,9 @@ std::string sdf_shape(const std::string& shape) {
 /// True if a point of the world is within one of the geoms, which are all hulls.
 bool is_inside(const Model& model, const Vec3<double>& point) {
   return std::ranges::any_of(model.geoms, [&](const ModelGeom& geom) {
-    const auto& hull = std::get<Hull<double>>(geom.shape->kind);
+    const auto& hull = std::get<Hull>(geom.shape->kind);
     const Vec3<double> at = geom.pose.inverse()(point);
-    const FacetMesh<double>& facets = *hull.points.facets();
+    const FacetMesh& facets = *hull.points.facets();
     for (std::size_t i = 0; i < facets.size(); ++i)
       if (facets[i].normal().dot(at - facets[i].corner(0)) > 0) return false;
     return true;

@@ -45,7 +45,7 @@ struct RobotFile {
 const RobotFile files[] = {
     {"sdf-include-of-a-file-that-holds-a-light.world",
      [](const Model& model, const Scene& scene) {
-       EXPECT_TRUE(only_shape<Box<double>>(model));
+       EXPECT_TRUE(only_shape<Box>(model));
        EXPECT_EQ(scene.objects.size(), 1u);
        EXPECT_TRUE(std::ranges::any_of(
            model.passed_over, [](const PassedOver& one) { return one.what == "<light>"; }));
@@ -58,7 +58,7 @@ const RobotFile files[] = {
      }},
     {"sdf-cone-geometry.sdf",
      [](const Model& model, const Scene&) {
-       const auto* cone = only_shape<Cone<double>>(model);
+       const auto* cone = only_shape<Cone>(model);
        ASSERT_TRUE(cone);
        EXPECT_EQ(cone->radius, 0.5);
        EXPECT_EQ(cone->half_height, 0.5);
@@ -104,7 +104,7 @@ const RobotFile files[] = {
      }},
     {"urdf-drake-ellipsoid.urdf",
      [](const Model& model, const Scene&) {
-       const auto* ellipsoid = only_shape<Ellipsoid<double>>(model);
+       const auto* ellipsoid = only_shape<Ellipsoid>(model);
        ASSERT_TRUE(ellipsoid);
        expect_at(ellipsoid->radii, 1, 0.5, 0.25);
      }},

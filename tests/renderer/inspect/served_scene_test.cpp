@@ -17,7 +17,7 @@ class AServedScene : public ::testing::Test {
     scene_.camera.look_at = {0, 0, 0};
     scene_.lights = {EnvironmentLight{{1, 1, 1}, {1, 1, 1}}};
     scene_.materials = {{"grey", LambertMaterial{{0.5, 0.5, 0.5}}}};
-    scene_.objects = {{"ball", Sphere<double>{1}, shifted_by(0, 0, 0), 0}};
+    scene_.objects = {{"ball", Sphere{1}, shifted_by(0, 0, 0), 0}};
     solvers_.push_back({"auto", SceneCasts(scene_, {})});
     options_.picture.resolution = {40, 30};
   }

@@ -33,7 +33,7 @@ Scene floor_under(Object lamp) {
   scene.materials = {{"matt", LambertMaterial{Colour::Constant(matt_albedo)}},
                      {"lamp", EmissiveMaterial{Colour::Ones()}}};
   Object floor;
-  floor.shape = Box<double>{{50, 50, 1}};
+  floor.shape = Box{{50, 50, 1}};
   floor.pose.translation = {0, 0, -1};
   lamp.material = 1;
   scene.objects = {std::move(floor), std::move(lamp)};
@@ -86,7 +86,7 @@ TEST(MeshLamp, a_ball_of_triangles_lights_the_floor_as_a_ball) {
   for (Vec3<double>& vertex : ball.vertices) vertex.normalize();
   Affine<double> pose = pose_at(0.4, 0.2, 1.5, 0.5);
   Object exact;
-  exact.shape = Sphere<double>{0.5};
+  exact.shape = Sphere{0.5};
   exact.pose.translation = pose.translation;
   const MeanLight truth = look(floor_under(exact), 1 << 14);
   for (const bool is_mirrored : {false, true}) {
@@ -130,7 +130,7 @@ TEST(MeshLamp, a_white_body_within_a_lamp_is_as_bright_as_the_lamp) {
     Scene scene;
     scene.materials = {{"white", kind}, {"lamp", EmissiveMaterial{Colour::Ones()}}};
     Object body;
-    body.shape = Box<double>{{0.3, 0.3, 0.3}};
+    body.shape = Box{{0.3, 0.3, 0.3}};
     scene.objects = {std::move(body), lamp_of(ball, pose_at(0.1, 0, 0, 2))};
     const MeanLight seen =
         look(scene, 1 << 13, 200, {{0.1, -1.2, 0.2}, unit<double>({0, 1, -0.1})});

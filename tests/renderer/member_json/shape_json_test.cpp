@@ -12,14 +12,14 @@
 namespace minkray {
 namespace {
 
-std::optional<Shape<double>> shape_of(std::string_view text, Mistakes& mistakes) {
+std::optional<Shape> shape_of(std::string_view text, Mistakes& mistakes) {
   MeshFiles meshes(".");
   const auto json = parse_json(text, mistakes);
   if (!json) return std::nullopt;
   return read_shape(*json, JsonPath(), mistakes, meshes);
 }
 
-Shape<double> good_shape(std::string_view text) {
+Shape good_shape(std::string_view text) {
   Mistakes mistakes("shape");
   auto shape = shape_of(text, mistakes);
   EXPECT_TRUE(shape) << mistakes.text();
@@ -33,7 +33,7 @@ std::string complaint(std::string_view text) {
 }
 
 /// Equal in every bit of the supports in many directions.
-void expect_same(const Shape<double>& a, const Shape<double>& b) {
+void expect_same(const Shape& a, const Shape& b) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;
   for (int i = 0; i < 100; ++i) {
@@ -69,16 +69,16 @@ TEST(ShapeJson, what_is_written_reads_as_the_same_shape) {
       R"({"type": "transform", "shape": {"type": "sphere", "radius": 1}, "translate": [1, 2, 3],
           "rotate": [0.1, 0.2, 0.3, 0.9], "scale": [1, -2, 0.3]})",
   };
-  std::vector<bool> seen(std::variant_size_v<ShapeVariant<double>>);
+  std::vector<bool> seen(std::variant_size_v<ShapeVariant>);
   for (const std::string& text : texts) {
-    const Shape<double> shape = good_shape(text);
+    const Shape shape = good_shape(text);
     seen[shape.kind.index()] = true;
     const Json json = write_shape(shape);
     expect_same(shape, good_shape(json.dump()));
     EXPECT_EQ(write_shape(good_shape(json.dump())), json);
   }
   // A new kind of shape belongs into the list above, unless no file can hold one.
-  for_each_shape_kind<double>([&, i = 0u]<class S>() mutable {
+  for_each_shape_kind([&, i = 0u]<class S>() mutable {
     EXPECT_NE(seen[i++], declared_by<S>.by_program) << S::name << " has no line in the list above";
   });
 }
@@ -93,7 +93,7 @@ TEST(ShapeJson, two_operands_may_be_spelled_as_a_and_b_or_as_a_list) {
   const std::string b = R"({"type": "disk", "radius": 2})";
   for (const std::string type : {"minkowski_sum", "minkowski_difference", "hull_of"}) {
     const std::string start = R"({"type": ")" + type + R"(", )";
-    const Shape<double> ab = good_shape(start + R"("a": )" + a + R"(, "b": )" + b + "}");
+    const Shape ab = good_shape(start + R"("a": )" + a + R"(, "b": )" + b + "}");
     expect_same(ab, good_shape(start + R"("shapes": [)" + a + ", " + b + "]}"));
   }
   EXPECT_EQ(complaint(R"({"type": "minkowski_difference", "shapes": [)" + a + "]}"),
@@ -101,7 +101,7 @@ TEST(ShapeJson, two_operands_may_be_spelled_as_a_and_b_or_as_a_list) {
 }
 
 TEST(ShapeJson, a_pose_is_applied_scale_first) {
-  const Shape<double> shape = good_shape(
+  const Shape shape = good_shape(
       R"({"type": "transform", "shape": {"type": "point", "position": [1, 0, 0]},
           "translate": [10, 0, 0], "rotate": [0, 0, 1, 1], "scale": [2, 3, 4]})");
   EXPECT_TRUE(shape.support<double>({1, 0, 0}).isApprox(Vec3<double>(10, 2, 0), 1e-15));

@@ -17,10 +17,10 @@ std::size_t count(const std::string& text, const std::string& part) {
 }
 
 TEST(Panels, show_every_iteration_of_a_real_run_with_its_discarded_vertices) {
-  const Shape<double> polygon = Hull<double>{PointCloud<double>(
+  const Shape polygon = Hull{PointCloud(
       {Vec3<double>(1, 0.2, 0), {2, -1, 0}, {4, 0, 0}, {4, 2, 0}, {2.5, 3, 0}, {1.2, 2, 0}})};
-  const Shape<double> disk = Transform<double>{
-      Nested<double>(Disk<double>{0.5}), Affine<double>{Mat3<double>::Identity(), {-1, -1, 0}}};
+  const Shape disk =
+      Transform{Nested(Disk{0.5}), Affine<double>{Mat3<double>::Identity(), {-1, -1, 0}}};
   DistanceResult<double, 2> result;
   const std::string svg = distance_panels_svg(polygon, disk, SubalgorithmKind::projection, result);
   EXPECT_EQ(result.status, DistanceStatus::separated);
@@ -32,11 +32,10 @@ TEST(Panels, show_every_iteration_of_a_real_run_with_its_discarded_vertices) {
 }
 
 TEST(Trace, tables_and_pictures_have_a_line_for_each_iteration) {
-  const PreparedShape<double> shape(Shape<double>(Cone<double>{0.7, 0.5}));
-  CastOptions<double> options;
+  const PreparedShape shape(Shape(Cone{0.7, 0.5}));
+  CastOptions options;
   options.solver = SolverKind::paper;
-  const CastTrace<double> trace =
-      trace_ray<double>(shape, {{-3, 0.2, 0.1}, {1, 0.01, -0.02}}, options);
+  const CastTrace trace = trace_ray(shape, {{-3, 0.2, 0.1}, {1, 0.01, -0.02}}, options);
   ASSERT_EQ(trace.result.status, Status::hit);
   ASSERT_EQ(trace.iterations.size(), static_cast<std::size_t>(trace.result.iterations));
   const std::string table = trace_table(trace);

@@ -20,13 +20,13 @@ Scene two_balls() {
                   EnvironmentLight{{0.7, 0.8, 1.0}, {0.3, 0.3, 0.3}}};
   scene.materials = {{"matt", LambertMaterial{{0.7, 0.6, 0.5}}},
                      {"shiny", GlossyMaterial{{0.2, 0.3, 0.7}, 0.2, 1.5}}};
-  const auto add = [&](const char* name, Shape<double> shape, const Vec3<double>& at,
+  const auto add = [&](const char* name, Shape shape, const Vec3<double>& at,
                        std::uint32_t material) {
     scene.objects.push_back({name, std::move(shape), {Mat3<double>::Identity(), at}, material});
   };
-  add("floor", Box<double>{{5, 5, 1}}, {0, 0, -2}, 0);
-  add("near", Sphere<double>{0.7}, {-0.8, -1, 0}, 1);
-  add("far", Sphere<double>{1}, {1, 1, 0}, 0);
+  add("floor", Box{{5, 5, 1}}, {0, 0, -2}, 0);
+  add("near", Sphere{0.7}, {-0.8, -1, 0}, 1);
+  add("far", Sphere{1}, {1, 1, 0}, 0);
   return scene;
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double albedo = 0.8;
 
-Object object(Shape<double> shape, const Vec3<double>& at, std::uint32_t material) {
+Object object(Shape shape, const Vec3<double>& at, std::uint32_t material) {
   return {"", std::move(shape), {Mat3<double>::Identity(), at}, material};
 }
 
@@ -26,7 +26,7 @@ Scene floor_and_lamp() {
   Scene scene;
   scene.materials = {{"matt", LambertMaterial{Colour::Constant(albedo)}},
                      {"lamp", EmissiveMaterial{Colour::Ones()}}};
-  scene.objects.push_back(object(Box<double>{{50, 50, 1}}, {0, 0, -1}, 0));
+  scene.objects.push_back(object(Box{{50, 50, 1}}, {0, 0, -1}, 0));
   return scene;
 }
 
@@ -67,7 +67,7 @@ TEST(PathTransport, a_shining_ball_lights_as_the_square_of_its_radius_over_its_h
   double worst = 0;
   for (const auto& [radius, height] : {std::pair{1.0, 3.0}, {0.01, 2.0}, {1.9, 2.0}}) {
     Scene scene = floor_and_lamp();
-    scene.objects.push_back(object(Sphere<double>{radius}, {0, 0, height}, 1));
+    scene.objects.push_back(object(Sphere{radius}, {0, 0, height}, 1));
     const double expected = std::numbers::pi * radius * radius / (height * height);
     const double part = irradiance(scene) / expected;
     EXPECT_NEAR(part, 1, 1e-3) << radius << " " << height;
@@ -80,7 +80,7 @@ TEST(PathTransport, a_shining_disk_lights_as_its_formula_says) {
   double worst = 0;
   for (const auto& [radius, height] : {std::pair{1.0, 1.5}, {0.05, 2.0}, {3.0, 1.0}}) {
     Scene scene = floor_and_lamp();
-    scene.objects.push_back(object(Disk<double>{radius}, {0, 0, height}, 1));
+    scene.objects.push_back(object(Disk{radius}, {0, 0, height}, 1));
     const double expected =
         std::numbers::pi * radius * radius / (height * height + radius * radius);
     const double part = irradiance(scene, 1 << 14) / expected;
@@ -97,7 +97,7 @@ TEST(PathTransport, half_a_sky_and_a_plane_above_light_with_pi) {
   EXPECT_NEAR(of_sky, 1, 1e-3);
   tell_figure("irradiance_under_half_a_sky", std::abs(of_sky - 1), "<= 0.001");
   Scene planes = floor_and_lamp();
-  Object above = object(Point<double>(), Vec3<double>::Zero(), 1);
+  Object above = object(Point(), Vec3<double>::Zero(), 1);
   above.half_space = HalfSpaceBody<double>{{0, 0, -1}, -2};
   planes.objects.push_back(above);
   const double of_plane = irradiance(planes) / std::numbers::pi;
@@ -106,21 +106,21 @@ TEST(PathTransport, half_a_sky_and_a_plane_above_light_with_pi) {
 }
 
 /// Lamps without a closed form, somewhere above the floor.
-std::vector<Shape<double>> odd_lamps() {
+std::vector<Shape> odd_lamps() {
   const std::vector<Vec3<double>> points = {{0.3, 0, 0},  {-0.3, 0.1, 0}, {0, 0.5, 0.1},
                                             {0, -0.2, 0}, {0.1, 0, 0.4},  {0, 0.1, -0.3}};
-  return {Cone<double>{0.4, 0.5},
-          Superellipsoid<double>{{0.5, 0.3, 0.4}, 4},
-          Rounded<double>{0.1, Shape<double>(Hull<double>{PointCloud<double>(points)})},
-          Capsule<double>{0.05, 0.6},
-          Box<double>{{0.6, 0.1, 0.2}},
-          Box<double>{{0.5, 0.3, 0.001}}};
+  return {Cone{0.4, 0.5},
+          Superellipsoid{{0.5, 0.3, 0.4}, 4},
+          Rounded{0.1, Shape(Hull{PointCloud(points)})},
+          Capsule{0.05, 0.6},
+          Box{{0.6, 0.1, 0.2}},
+          Box{{0.5, 0.3, 0.001}}};
 }
 
 // Brute force: directions by the cosine alone, and whether they meet the lamp.
 TEST(PathTransport, lamps_of_any_shape_light_as_brute_force_says_with_a_20th_of_the_samples) {
   double most_sigmas = 0, least_ratio = std::numeric_limits<double>::infinity();
-  for (const Shape<double>& shape : odd_lamps()) {
+  for (const Shape& shape : odd_lamps()) {
     Scene scene = floor_and_lamp();
     scene.objects.push_back(object(shape, {0.4, 0.7, 2.5}, 1));
     const World world = make_world(scene);
@@ -157,14 +157,14 @@ TEST(PathTransport, a_furnace_of_lamps_is_even) {
         MaterialKind(DielectricMaterial{1.5, 0}), MaterialKind(DielectricMaterial{1.4, 0.5})}) {
     Scene scene;
     scene.materials = {{"white", kind}, {"lamp", EmissiveMaterial{Colour::Ones()}}};
-    scene.objects.push_back(object(Sphere<double>{1}, {0, 0, 0}, 0));
+    scene.objects.push_back(object(Sphere{1}, {0, 0, 0}, 0));
     // Six plates around it, which meet at their edges.
     for (int axis = 0; axis < 3; ++axis)
       for (const double side : {-1.0, 1.0}) {
         Vec3<double> half = Vec3<double>::Constant(3), at = Vec3<double>::Zero();
         half[axis] = 0.5;
         at[axis] = 3 * side;
-        scene.objects.push_back(object(Box<double>{half}, at, 1));
+        scene.objects.push_back(object(Box{half}, at, 1));
       }
     const Ray<double> ray{{0, -2, 0.3}, unit<double>({0.1, 2, 0.2})};
     // Light that enters a hollow body leaves it much later or soon: it takes more samples.
@@ -176,8 +176,7 @@ TEST(PathTransport, a_furnace_of_lamps_is_even) {
 // Light from one side alone: a flat sheet sends its part to either side, once.
 TEST(PathTransport, a_flat_sheet_lets_light_through_once) {
   constexpr double transmission = 0.3;
-  for (const Shape<double>& shape :
-       {Shape<double>(Disk<double>{1}), Shape<double>(Box<double>{{1, 1, 0}})})
+  for (const Shape& shape : {Shape(Disk{1}), Shape(Box{{1, 1, 0}})})
     for (const bool from_behind : {false, true}) {
       Scene scene;
       scene.materials = {{"paper", TranslucentMaterial{Colour::Constant(albedo), transmission}}};
@@ -194,8 +193,7 @@ TEST(PathTransport, a_lamp_in_a_white_lantern_shines_with_all_of_its_light) {
   Scene scene;
   scene.materials = {{"paper", TranslucentMaterial{Colour::Ones(), 0.5}},
                      {"lamp", EmissiveMaterial{Colour::Ones()}}};
-  scene.objects = {object(Sphere<double>{1}, {0, 0, 0}, 0),
-                   object(Sphere<double>{0.02}, {0, 0, 0}, 1)};
+  scene.objects = {object(Sphere{1}, {0, 0, 0}, 0), object(Sphere{0.02}, {0, 0, 0}, 1)};
   // The lamp sends pi * area; of an even sphere as much leaves each part. The lamp itself absorbs
   // what falls back on it, a few parts in 10^4.
   const Ray<double> ray{{0.2, -4, 0.3}, {0, 1, 0}};
@@ -209,8 +207,8 @@ Scene shell(double scale, const MaterialKind& core) {
   scene.materials = {{"glass", DielectricMaterial{1.5}}, {"core", core}};
   scene.lights = {EnvironmentLight{{0, 0, 1}, {0, 0, 1}}};
   scene.background = {{0, 0, 1}, {0, 0, 1}};
-  scene.objects = {object(Sphere<double>{scale}, {0, 0, 0}, 0),
-                   object(Sphere<double>{scale * (1 - 4e-5)}, {0, 0, 0}, 1)};
+  scene.objects = {object(Sphere{scale}, {0, 0, 0}, 0),
+                   object(Sphere{scale * (1 - 4e-5)}, {0, 0, 0}, 1)};
   return scene;
 }
 
@@ -273,7 +271,7 @@ TEST(PathTransport, a_ball_lens_focuses_where_its_formula_says) {
   for (const double eta : {1.33, 1.5, 1.8}) {
     Scene scene;
     scene.materials = {{"glass", DielectricMaterial{eta}}};
-    scene.objects = {object(Sphere<double>{2}, {0, 0, 0}, 0)};
+    scene.objects = {object(Sphere{2}, {0, 0, 0}, 0)};
     const World world = make_world(scene);
     const auto glass = make_bsdf(scene.materials[0]);
     WorldRay ray{{{0.01, 0, -9}, {0, 0, 1}}};
@@ -303,7 +301,7 @@ TEST(PathTransport, a_ball_lens_focuses_where_its_formula_says) {
 TEST(PathTransport, glass_dims_by_the_exact_length_of_the_way_through_it) {
   Scene scene;
   scene.materials = {{"smoke", DielectricMaterial{1.0, 0, {0.3, 0.7, 1.1}}}};
-  scene.objects = {object(Superellipsoid<double>{{1, 1, 1}, 5}, {0, 0, 0}, 0)};
+  scene.objects = {object(Superellipsoid{{1, 1, 1}, 5}, {0, 0, 0}, 0)};
   scene.background = {Colour::Ones(), Colour::Ones()};
   const Ray<double> ray{{0.2, -4, 0.1}, {0, 1, 0}};
   const double half = std::pow(1 - std::pow(0.2, 5) - std::pow(0.1, 5), 0.2);
@@ -318,8 +316,7 @@ TEST(PathTransport, where_bodies_overlap_the_greater_priority_counts) {
     Scene scene;
     scene.materials = {{"red", DielectricMaterial{1.0, 0, {0, 1, 1}, priority}},
                        {"blue", DielectricMaterial{1.0, 0, {1, 1, 0}, 0}}};
-    scene.objects = {object(Box<double>{{1, 1, 1}}, {0, 0, 0}, 0),
-                     object(Box<double>{{1, 1, 1}}, {0, 1, 0}, 1)};
+    scene.objects = {object(Box{{1, 1, 1}}, {0, 0, 0}, 0), object(Box{{1, 1, 1}}, {0, 1, 0}, 1)};
     scene.background = {Colour::Ones(), Colour::Ones()};
     // One unit of the first alone, one of both, one of the second alone.
     const Colour seen = look(scene, {{0.1, -4, 0.2}, {0, 1, 0}}, 1).mean;
@@ -332,9 +329,9 @@ TEST(PathTransport, a_ray_sees_the_same_bits_alone_and_with_others) {
   Scene scene = floor_and_lamp();
   scene.materials.push_back({"glass", DielectricMaterial{1.5, 0.3, {0.1, 0.2, 0.3}}});
   scene.materials.push_back({"gold", ConductorMaterial{{"gold"}, std::nullopt, 0.3, 0.5}});
-  scene.objects.push_back(object(Sphere<double>{0.3}, {0.5, 1, 2}, 1));
-  scene.objects.push_back(object(Sphere<double>{0.5}, {-0.6, 0, 0.5}, 2));
-  scene.objects.push_back(object(Box<double>{{0.2, 0.4, 0.3}}, {0.7, 0, 0.3}, 3));
+  scene.objects.push_back(object(Sphere{0.3}, {0.5, 1, 2}, 1));
+  scene.objects.push_back(object(Sphere{0.5}, {-0.6, 0, 0.5}, 2));
+  scene.objects.push_back(object(Box{{0.2, 0.4, 0.3}}, {0.7, 0, 0.3}, 3));
   scene.lights = {PointLight{{0, -2, 3}, {2, 2, 2}}, EnvironmentLight{{0.2, 0.3, 0.4}, {0, 0, 0}}};
   scene.camera.position = {0, -4, 2};
   scene.camera.resolution = {32, 32};

@@ -36,45 +36,38 @@ std::vector<std::string> all_complaints(const std::string& file, const AnswerOpt
       continue;
     }
     ++cases;
-    for (const std::string& complaint :
-         complaints(*query, answer(*query, options).facts, options.precision))
+    for (const std::string& complaint : complaints(*query, answer(*query, options).facts))
       all.push_back(query->name + ": " + complaint);
   }
   return all;
 }
 
 // The queries on which published engines were wrong, with their exact answers.
-TEST(HardCases, all_are_right_in_double_and_in_float) {
-  for (const Precision precision : {Precision::in_double, Precision::in_float}) {
-    AnswerOptions options;
-    options.precision = precision;
-    int cases = 0;
-    EXPECT_EQ(all_complaints("hard-casts.jsonl", options, cases), std::vector<std::string>());
-    EXPECT_EQ(cases, 100);
-    EXPECT_EQ(all_complaints("hard-distances.jsonl", options, cases), std::vector<std::string>());
-    EXPECT_EQ(cases, 50);
-  }
+TEST(HardCases, all_are_right) {
+  AnswerOptions options;
+  int cases = 0;
+  EXPECT_EQ(all_complaints("hard-casts.jsonl", options, cases), std::vector<std::string>());
+  EXPECT_EQ(cases, 100);
+  EXPECT_EQ(all_complaints("hard-distances.jsonl", options, cases), std::vector<std::string>());
+  EXPECT_EQ(cases, 50);
 }
 
-TEST(HardCases, all_are_certified_in_double_and_in_float) {
+TEST(HardCases, all_are_certified) {
   std::ifstream in(source_folder() / "tests/cases/hard-casts.jsonl");
   int certified = 0;
   for (std::string line; std::getline(in, line);) {
     Mistakes mistakes("hard-casts.jsonl");
     const auto query = parse(line, mistakes);
     ASSERT_TRUE(query.has_value());
-    for (const Precision precision : {Precision::in_double, Precision::in_float}) {
-      AnswerOptions options;
-      options.precision = precision;
-      options.certify = true;
-      const Answer result = answer(*query, options);
-      ASSERT_TRUE(result.verdict.has_value()) << query->name;
-      EXPECT_TRUE(result.verdict->holds) << query->name << ": " << result.verdict->complaint;
-      EXPECT_EQ(result.json.at("certified").at("holds"), true);
-      ++certified;
-    }
+    AnswerOptions options;
+    options.certify = true;
+    const Answer result = answer(*query, options);
+    ASSERT_TRUE(result.verdict.has_value()) << query->name;
+    EXPECT_TRUE(result.verdict->holds) << query->name << ": " << result.verdict->complaint;
+    EXPECT_EQ(result.json.at("certified").at("holds"), true);
+    ++certified;
   }
-  EXPECT_EQ(certified, 2 * 100);
+  EXPECT_EQ(certified, 100);
 }
 
 TEST(HardCases, all_are_right_with_algorithm_1_in_double) {
@@ -93,14 +86,11 @@ TEST(HardCases, distances_are_right_with_every_subalgorithm) {
   }
 }
 
-TEST(HardCases, signed_distances_are_right_in_double_and_in_float) {
-  for (const Precision precision : {Precision::in_double, Precision::in_float}) {
-    AnswerOptions options;
-    options.precision = precision;
-    int cases = 0;
-    EXPECT_EQ(all_complaints("signed-distances.jsonl", options, cases), std::vector<std::string>());
-    EXPECT_EQ(cases, 149);
-  }
+TEST(HardCases, signed_distances_are_right) {
+  AnswerOptions options;
+  int cases = 0;
+  EXPECT_EQ(all_complaints("signed-distances.jsonl", options, cases), std::vector<std::string>());
+  EXPECT_EQ(cases, 149);
 }
 
 // Exactly, that ray passes the shape, at 2e-18 of its size.
@@ -220,17 +210,17 @@ TEST(Queries, a_wrong_answer_is_complained_about) {
   auto query = parse(ball_query, mistakes);
   ASSERT_TRUE(query);
   const AnswerFacts facts = answer(*query, {}).facts;
-  EXPECT_TRUE(complaints(*query, facts, Precision::in_double).empty());
+  EXPECT_TRUE(complaints(*query, facts).empty());
   query->expect->t = 2.5;
-  EXPECT_EQ(complaints(*query, facts, Precision::in_double).size(), 1u);
+  EXPECT_EQ(complaints(*query, facts).size(), 1u);
   query->expect->hit = false;
-  EXPECT_EQ(complaints(*query, facts, Precision::in_double).size(), 2u);
+  EXPECT_EQ(complaints(*query, facts).size(), 2u);
   query->expect->normal = Vec3<double>(0, 1, 0);
-  EXPECT_EQ(complaints(*query, facts, Precision::in_double).size(), 3u);
+  EXPECT_EQ(complaints(*query, facts).size(), 3u);
   AnswerFacts nothing = facts;
   nothing.status = "exhausted";
   nothing.hit = false;
-  EXPECT_EQ(complaints(*query, nothing, Precision::in_double).front(), "status is exhausted");
+  EXPECT_EQ(complaints(*query, nothing).front(), "status is exhausted");
 }
 
 TEST(Queries, mistakes_name_line_key_and_what_was_expected) {
@@ -274,27 +264,24 @@ TEST(Queries, numbers_of_answers_read_back_as_they_were_and_traces_bound_the_hit
       R"({"name":"n","query":"ray","shape":{"type":"ellipsoid","radii":[1,0.5,0.3]},"ray":{"origin":[-3,0.1,0.05],"direction":[1,0.01,0]}})",
       mistakes);
   ASSERT_TRUE(query) << mistakes.text();
-  for (const Precision precision : {Precision::in_double, Precision::in_float}) {
-    AnswerOptions options;
-    options.precision = precision;
-    options.solver = SolverKind::paper;
-    options.trace = true;
-    const Answer result = answer(*query, options);
-    EXPECT_EQ(Json::parse(result.json.dump()).at("t").get<double>(), result.facts.t);
-    const Json& trace = result.json.at("trace");
-    ASSERT_EQ(static_cast<int>(trace.size()), result.json.at("iterations").get<int>());
-    double lower = 0;
-    const double rounding = precision == Precision::in_double ? 1e-15 : 1e-6;
-    for (const Json& step : trace) {
-      EXPECT_GE(step.at("t_lo").get<double>(), lower);
-      lower = step.at("t_lo").get<double>();
-      EXPECT_LE(lower, result.facts.t + rounding);
-      EXPECT_TRUE(step.at("t_hi").is_null() || step.at("t_hi").get<double>() >= result.facts.t);
-      EXPECT_GE(step.at("case").get<int>(), 1);
-      EXPECT_LE(step.at("case").get<int>(), 3);
-    }
-    EXPECT_NEAR(lower, result.facts.t, rounding);
+  AnswerOptions options;
+  options.solver = SolverKind::paper;
+  options.trace = true;
+  const Answer result = answer(*query, options);
+  EXPECT_EQ(Json::parse(result.json.dump()).at("t").get<double>(), result.facts.t);
+  const Json& trace = result.json.at("trace");
+  ASSERT_EQ(static_cast<int>(trace.size()), result.json.at("iterations").get<int>());
+  double lower = 0;
+  const double rounding = 1e-15;
+  for (const Json& step : trace) {
+    EXPECT_GE(step.at("t_lo").get<double>(), lower);
+    lower = step.at("t_lo").get<double>();
+    EXPECT_LE(lower, result.facts.t + rounding);
+    EXPECT_TRUE(step.at("t_hi").is_null() || step.at("t_hi").get<double>() >= result.facts.t);
+    EXPECT_GE(step.at("case").get<int>(), 1);
+    EXPECT_LE(step.at("case").get<int>(), 3);
   }
+  EXPECT_NEAR(lower, result.facts.t, rounding);
 }
 
 TEST(Queries, steps_that_are_too_many_are_refused_and_never_wrap) {

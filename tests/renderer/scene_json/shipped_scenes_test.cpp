@@ -76,7 +76,7 @@ TEST(ShippedScenes, cpp_and_python_have_functions_for_all_shapes) {
     std::string text;
     for (const std::string& file : files) text += text_of_file(source_folder() / file);
     const std::string& name = files.front();
-    for_each_shape_kind<double>([&]<class S>() {
+    for_each_shape_kind([&]<class S>() {
       if (S::name == "custom") return;  // made of a function, and of no name
       const std::string kind = "\"" + std::string(S::name) + "\"";
       EXPECT_NE(text.find(kind), std::string::npos) << name << " makes no shape of kind " << kind;
@@ -105,7 +105,7 @@ TEST(ShippedScenes, all_can_be_read_and_say_what_they_show) {
 TEST(ShippedScenes, the_zoo_and_the_bent_pipe_show_every_shape) {
   const std::string zoo = text_of_file(source_folder() / "scenes/shape-zoo.json") +
                           text_of_file(source_folder() / "scenes/bent-pipe.json");
-  for_each_shape_kind<double>([&]<class S>() {
+  for_each_shape_kind([&]<class S>() {
     if (declared_by<S>.by_program) return;
     // The zoo's pictures are recorded: it stays as it is.
     const char* what_to_do = ": add a scene that shows it under its name, and read it here";

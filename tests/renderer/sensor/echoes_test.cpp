@@ -24,7 +24,7 @@ Scene two_walls() {
   Object& near = scene.objects.emplace_back();
   near.name = "near";
   near.material = 1;
-  Box<double> box;
+  Box box;
   box.half_extents = {0.5, 100, 100};
   near.shape = box;
   near.pose.translation = {6.5, -100, 0};

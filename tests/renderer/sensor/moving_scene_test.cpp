@@ -21,9 +21,9 @@ Scene restless(testing::Random& random, int count) {
     Object& object = scene.objects.emplace_back();
     object.name = "body " + std::to_string(i);
     if (i % 3 == 0)
-      object.shape = Box<double>{{0.3, 0.5, 0.1}};
+      object.shape = Box{{0.3, 0.5, 0.1}};
     else
-      object.shape = Capsule<double>{0.2, 0.6};
+      object.shape = Capsule{0.2, 0.6};
     object.pose.translation = 4 * random.in_cube();
     if (i % 2 == 0) continue;
     // The rest pose may be far from what the keys move: turns then sweep wide.

@@ -58,7 +58,7 @@ class ScanFormatsTest : public ::testing::Test {
     for (const double z : {40.0, 80.0}) {
       Object& ball = scene_.objects.emplace_back();
       ball.name = z < 50 ? "near" : "far";
-      Sphere<double> sphere;
+      Sphere sphere;
       sphere.radius = z < 50 ? 5 : 30;
       ball.shape = sphere;
       ball.pose.translation = {0, 0, z};

@@ -25,7 +25,7 @@ Scene balls() {
   for (int i = 0; i < 60; ++i) {
     Object& object = scene.objects.emplace_back();
     object.name = "ball " + std::to_string(i);
-    Sphere<double> ball;
+    Sphere ball;
     ball.radius = 0.5;
     object.shape = ball;
     object.pose.translation = 4 * random.in_cube();
@@ -57,7 +57,7 @@ TEST(Scans, rays_pass_what_no_ray_meets) {
   // A part of alpha 0 of a robot, at rest and moving.
   Scene scene = balls();
   scene.objects.resize(2);
-  scene.objects[0].shape = Sphere<double>{2};
+  scene.objects[0].shape = Sphere{2};
   scene.objects[0].visible_to = 0;
   for (Object& object : scene.objects) object.pose.translation = {0, 0, 0};
   SensorRays rays;
@@ -123,7 +123,7 @@ TEST(Scans, returns_are_the_bodies_behind_each_other) {
   for (int i = 0; i < 4; ++i) {
     Object& object = scene.objects.emplace_back();
     object.name = "ball";
-    object.shape = Sphere<double>();
+    object.shape = Sphere();
     object.pose.translation = {3.0 * i, 0, 0};
   }
   scene.objects[2].pose.translation.x() = 4;  // overlaps the second: they are passed as one
@@ -143,7 +143,7 @@ TEST(Scans, each_ray_of_a_sweep_sees_the_scene_at_its_own_time) {
   scene.materials.push_back({"matt", LambertMaterial{}});
   Object& object = scene.objects.emplace_back();
   object.name = "moving";
-  object.shape = Sphere<double>();
+  object.shape = Sphere();
   object.motion = Motion{{{0, {0, 0, 0}}, {1, {0, 0, 10}}}, {}};
   SensorRays rays;
   for (int i = 0; i <= 10; ++i) rays.rays.push_back({{{0, 0, -20}, {0, 0, 1}}, (10 - i) / 10.0});

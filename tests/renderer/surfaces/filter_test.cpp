@@ -200,8 +200,7 @@ Scene floor_of_fields() {
   CheckerTexture fields = black_and_white<CheckerTexture>("planar");
   fields.scale = 0.25;
   scene.materials = {{"fields", LambertMaterial{Paint(TextureKind(fields))}}};
-  scene.objects = {
-      {"floor", Box<double>{{5000, 5000, 1}}, {Mat3<double>::Identity(), {0, 0, -1}}, 0}};
+  scene.objects = {{"floor", Box{{5000, 5000, 1}}, {Mat3<double>::Identity(), {0, 0, -1}}, 0}};
   scene.lights = {EnvironmentLight{Colour::Ones(), Colour::Ones()}};
   scene.background = {Colour::Ones(), Colour::Ones()};
   return scene;

@@ -91,7 +91,7 @@ double mean_difference(const Image& a, const Image& b, double half_width = 18,
 TEST(MeshShading, a_coarse_ball_with_normals_is_lit_as_a_ball) {
   Object exact;
   exact.name = "ball";
-  exact.shape = Sphere<double>{1};
+  exact.shape = Sphere{1};
   const Surface ball = coarse_ball(12, 20);
   for (const IntegratorKind kind : {IntegratorKind::path, IntegratorKind::ambient}) {
     const Image truth = rendered(lit_scene(exact), kind);
@@ -146,9 +146,9 @@ TEST(MeshShading, triangles_do_not_shade_what_their_normals_show_as_lit) {
 TEST(MeshShading, normals_go_with_poses_that_stretch_and_mirror) {
   Object exact;
   exact.name = "ball";
-  exact.shape = Sphere<double>{1};
+  exact.shape = Sphere{1};
   exact.pose.linear = Vec3<double>(-0.6, 0.8, 1.2).asDiagonal();
-  exact.shape = Transform<double>{exact.shape, exact.pose};
+  exact.shape = Transform{exact.shape, exact.pose};
   const Affine<double> pose = std::exchange(exact.pose, {});
   const Surface ball = coarse_ball(12, 20);
   Object mesh = mesh_object(ball, look_with(normals_of_ball(ball)));
@@ -285,7 +285,7 @@ TEST(MeshShading, closed_meshes_are_glass) {
     scene.materials = {{"glass", DielectricMaterial{}}, {"lamp", EmissiveMaterial{Colour::Ones()}}};
     Object lamp;
     lamp.name = "lamp";
-    lamp.shape = Box<double>{{4, 0.1, 2}};
+    lamp.shape = Box{{4, 0.1, 2}};
     lamp.pose.translation = {0, 6, 2.2};
     lamp.material = 1;
     scene.objects.push_back(lamp);
@@ -293,7 +293,7 @@ TEST(MeshShading, closed_meshes_are_glass) {
   };
   Object exact;
   exact.name = "ball";
-  exact.shape = Sphere<double>{1};
+  exact.shape = Sphere{1};
   const Surface ball = coarse_ball(40, 60);
   const Image truth = with(exact),
               smooth = with(mesh_object(ball, look_with(normals_of_ball(ball)))),

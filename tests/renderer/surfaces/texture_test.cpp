@@ -80,7 +80,7 @@ TEST(Texture, paint_sticks_to_its_object) {
     auto board = two_colours<CheckerTexture>();
     board.scale = 0.31;
     scene.materials = {{"board", LambertMaterial{Paint(board)}}};
-    scene.objects = {{"body", Superellipsoid<double>{{1, 1, 1}, 4}, pose, 0}};
+    scene.objects = {{"body", Superellipsoid{{1, 1, 1}, 4}, pose, 0}};
     scene.lights = {EnvironmentLight{}};
     const World world = make_world(scene);
     const Integrator integrator(scene, world);

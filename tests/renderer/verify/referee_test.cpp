@@ -95,7 +95,7 @@ struct ArmAndBall {
     Scene scene;
     scene.objects.resize(1);
     scene.objects[0].name = "ball";
-    scene.objects[0].shape = Sphere<double>{0.3};
+    scene.objects[0].shape = Sphere{0.3};
     scene.objects[0].pose.translation = middle;
     bodies.push_back(bodies_of(scene)[0]);
     pairs = {{0, 2}, {0, 3}, {1, 3}, {1, 4, margin}, {2, 4, margin}, {3, 4, margin}};

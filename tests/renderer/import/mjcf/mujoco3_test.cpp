@@ -123,8 +123,7 @@ TEST(Mujoco3, primitives_are_fitted_to_meshes) {
     }
     const Model half = model_of(
         mjcf("<geom type=\"ellipsoid\" mesh=\"m\" fitscale=\"0.5\"/>", fit + brick), "m.xml");
-    EXPECT_NEAR(std::get<Ellipsoid<double>>(half.geoms.at(0).shape->kind).radii.maxCoeff(), 1.5,
-                1e-12);
+    EXPECT_NEAR(std::get<Ellipsoid>(half.geoms.at(0).shape->kind).radii.maxCoeff(), 1.5, 1e-12);
     EXPECT_EQ(kind_of(model_of(mjcf("<geom type=\"capsule\" mesh=\"m\"/>", fit + brick), "m.xml")),
               "capsule");
   }
