@@ -23,7 +23,7 @@ struct Rounded {
                       Field{"shape", &Rounded::shape, Unit::none, Range::any, "what is rounded"}};
   }
 
-  /// That of the shape within, if there is one.
+  /// The closed form of the inner shape, grown by `radius`; empty if the inner shape has none.
   ExactForm exact_form() const;
 
   template <class W>

@@ -25,7 +25,12 @@ class AffineMap {
   /// Direction for the inner shape's support mapping.
   template <class W>
   Vec3<W> inner_direction(const Vec3<W>& n) const {
-    return times(to_inner_, n);
+    if constexpr (std::is_same_v<W, long double>) {  // with its digits
+      const Mat3<W> linear = widen<W>(affine_.linear);
+      return Mat3<W>(linear.transpose() / linear.cwiseAbs().maxCoeff()) * n;
+    } else {
+      return times(to_inner_, n);
+    }
   }
 
   template <class W>
