@@ -26,6 +26,16 @@ CastResult<T> result_of(const Filtered<T>& answer) {
   return result;
 }
 
+template <class T>
+CastResult<T> exit_by_any_stage(const PreparedShape<T>& shape, const Ray<T>& ray,
+                                const CastOptions<T>& options) {
+  if (asks_filter(shape, options)) {
+    const Filtered<T> filtered = filter<true>(shape, ray, true);
+    if (filtered.is_certain()) return result_of(filtered);
+  }
+  return exit_by_later_stages(shape, ray, options);
+}
+
 }  // namespace
 
 template <class T>
@@ -55,16 +65,18 @@ CastResult<double> cast_ray(const ShapeDefinition<double>& definition, const Aff
 template <class T>
 CastResult<T> cast_exit(const PreparedShape<T>& shape, const Ray<T>& ray,
                         const CastOptions<T>& options) {
-  const auto answer = [&] {
-    if (asks_filter(shape, options)) {
-      const Filtered<T> filtered = filter<true>(shape, ray, true);
-      if (filtered.is_certain()) return result_of(filtered);
-    }
-    return exit_by_later_stages(shape, ray, options);
-  };
-  CastResult<T> result = answer();
+  CastResult<T> result = exit_by_any_stage(shape, ray, options);
   // The ray may start inside, so no lower bound is claimed.
   if (result.status == Status::hit) result.offset_lo = -std::numeric_limits<T>::infinity();
+  return result;
+}
+
+CastResult<double> cast_exit_within(const PreparedShape<double>& shape, const Ray<double>& ray,
+                                    const CastOptions<double>& options) {
+  CastResult<double> result = exit_by_any_stage(shape, ray, options);
+  // Without an enclosing triangle there is no lower bound.
+  if (result.status == Status::hit && !(result.offset_lo <= result.t_offset))
+    result.offset_lo = -std::numeric_limits<double>::infinity();
   return result;
 }
 

@@ -17,6 +17,10 @@ template <class T>
 CastResult<T> exit_by_later_stages(const PreparedShape<T>& shape, const Ray<T>& ray,
                                    const CastOptions<T>& options);
 
+/// Same as cast_exit, with a lower bound of t as well; -infinity if there is none.
+CastResult<double> cast_exit_within(const PreparedShape<double>& shape, const Ray<double>& ray,
+                                    const CastOptions<double>& options = {});
+
 /// Adds the upper bound of t to a hit that a packet found, as cast_by_later_stages does.
 void bound_hit(const PreparedShape<double>& shape, const Ray<double>& ray,
                CastResult<double>& result);

@@ -9,9 +9,13 @@
 
 namespace minkray {
 
+/// An instance, and one of lower index with the same shape, place and ray kinds.
+struct RepeatedInstance {
+  std::uint32_t number, same_as;
+};
+
 /// Returns the instances that no ray can hit first, in ascending order: two others with lower
-/// indices have the same shape, place and ray kinds, and a ray skips one instance at most. Empty if
-/// any instance moves.
-std::vector<std::uint32_t> repeated_instances(const Instances& instances);
+/// indices are the same, and a ray skips one instance at most. Empty if any instance moves.
+std::vector<RepeatedInstance> repeated_instances(const Instances& instances);
 
 }  // namespace minkray
