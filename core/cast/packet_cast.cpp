@@ -57,6 +57,22 @@ InstructionSet best_instruction_set() {
 #endif
 }
 
+namespace {
+
+/// Casts with the shape's model, if it has one for packets; otherwise no lane is settled.
+template <class T>
+void cast_with_models(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
+                      bool leaves, CastPacket<T>& answers, InstructionSet set) {
+  if (!shape.definition().has_packets() || shape.is_far_out()) return;
+  answers.path.fill(Path::model);
+  if (set == InstructionSet::avx2)
+    packet_kernel_avx2(shape, rays, lanes, leaves, answers);
+  else
+    packet_kernel_sse2(shape, rays, lanes, leaves, answers);
+}
+
+}  // namespace
+
 template <class T>
 void cast_packet(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
                  CastPacket<T>& answers, InstructionSet set) {
@@ -66,12 +82,8 @@ void cast_packet(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBi
       filter_kernel_avx2(shape, rays, lanes, answers);
     else
       filter_kernel_sse2(shape, rays, lanes, answers);
-  } else if (shape.definition().has_packets() && !shape.is_far_out()) {
-    answers.path.fill(Path::model);
-    if (set == InstructionSet::avx2)
-      packet_kernel_avx2(shape, rays, lanes, answers);
-    else
-      packet_kernel_sse2(shape, rays, lanes, answers);
+  } else {
+    cast_with_models(shape, rays, lanes, false, answers, set);
   }
   if constexpr (std::is_same_v<T, double>)
     for (int lane = 0; lane < packet_lanes<T>; ++lane) {
@@ -89,11 +101,32 @@ void cast_packet(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBi
       answers.set(lane, cast_by_later_stages<T>(shape, rays.ray(lane), {}, {}));
 }
 
+template <class T>
+void cast_exit_packet(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
+                      CastPacket<T>& answers, InstructionSet set) {
+  answers.hit = answers.inside = answers.miss = 0;
+  if (shape.definition().form().kind == FormKind::none)
+    cast_with_models(shape, rays, lanes, true, answers, set);
+  answers.hit &= lanes;
+  answers.inside = answers.miss = 0;
+  for (int lane = 0; lane < packet_lanes<T>; ++lane) {
+    const LaneBits bit = LaneBits(1) << lane;
+    if (answers.hit & bit)
+      answers.offset_lo[static_cast<std::size_t>(lane)] = -std::numeric_limits<T>::infinity();
+    else if (lanes & bit)
+      answers.set(lane, cast_exit(shape, rays.ray(lane)));
+  }
+}
+
 template struct CastPacket<float>;
 template struct CastPacket<double>;
 template void cast_packet(const PreparedShape<float>&, const RayPacket<float>&, LaneBits,
                           CastPacket<float>&, InstructionSet);
 template void cast_packet(const PreparedShape<double>&, const RayPacket<double>&, LaneBits,
                           CastPacket<double>&, InstructionSet);
+template void cast_exit_packet(const PreparedShape<float>&, const RayPacket<float>&, LaneBits,
+                               CastPacket<float>&, InstructionSet);
+template void cast_exit_packet(const PreparedShape<double>&, const RayPacket<double>&, LaneBits,
+                               CastPacket<double>&, InstructionSet);
 
 }  // namespace minkray

@@ -73,11 +73,20 @@ template <class T>
 void cast_packet(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
                  CastPacket<T>& answers, InstructionSet set = best_instruction_set());
 
+/// Same as cast_exit, for the requested lanes.
+template <class T>
+void cast_exit_packet(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
+                      CastPacket<T>& answers, InstructionSet set = best_instruction_set());
+
 extern template struct CastPacket<float>;
 extern template struct CastPacket<double>;
 extern template void cast_packet(const PreparedShape<float>&, const RayPacket<float>&, LaneBits,
                                  CastPacket<float>&, InstructionSet);
 extern template void cast_packet(const PreparedShape<double>&, const RayPacket<double>&, LaneBits,
                                  CastPacket<double>&, InstructionSet);
+extern template void cast_exit_packet(const PreparedShape<float>&, const RayPacket<float>&,
+                                      LaneBits, CastPacket<float>&, InstructionSet);
+extern template void cast_exit_packet(const PreparedShape<double>&, const RayPacket<double>&,
+                                      LaneBits, CastPacket<double>&, InstructionSet);
 
 }  // namespace minkray

@@ -7,16 +7,17 @@
 
 namespace minkray {
 
-/// Requires a shape with a model. Lanes that do not converge are neither hit, inside nor miss.
+/// Requires a shape with a model. Lanes that do not converge are neither hit, inside nor miss. If
+/// `leaves`, hits are where rays leave the shape, and nothing is known of other lanes.
 void packet_kernel_sse2(const PreparedShape<float>& shape, const RayPacket<float>& rays,
-                        LaneBits lanes, CastPacket<float>& answers);
+                        LaneBits lanes, bool leaves, CastPacket<float>& answers);
 void packet_kernel_sse2(const PreparedShape<double>& shape, const RayPacket<double>& rays,
-                        LaneBits lanes, CastPacket<double>& answers);
+                        LaneBits lanes, bool leaves, CastPacket<double>& answers);
 
 /// Requires a machine with AVX2 and FMA.
 void packet_kernel_avx2(const PreparedShape<float>& shape, const RayPacket<float>& rays,
-                        LaneBits lanes, CastPacket<float>& answers);
+                        LaneBits lanes, bool leaves, CastPacket<float>& answers);
 void packet_kernel_avx2(const PreparedShape<double>& shape, const RayPacket<double>& rays,
-                        LaneBits lanes, CastPacket<double>& answers);
+                        LaneBits lanes, bool leaves, CastPacket<double>& answers);
 
 }  // namespace minkray

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The body of the packet casts. MINKRAY_PACKET_KERNEL is the function's name. All other names
 // include the type of the lanes, and so the instruction set: see core/math/wide.h.
+#include <utility>
+
 #include "core/cast/packet_kernel.h"
 #include "core/cast/packet_lanes.h"
 #include "core/math/wide.h"
@@ -10,10 +12,10 @@
 namespace minkray {
 namespace {
 
-/// Takes as many lanes as W has, beginning with lane `from`.
+/// Takes as many lanes as W has, beginning with lane `from`. `leaves`: finds where rays leave.
 template <class W>
 void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, LaneBits lanes,
-          std::size_t from, CastPacket<Lane<W>>& answers) {
+          bool leaves, std::size_t from, CastPacket<Lane<W>>& answers) {
   using T = Lane<W>;
   const Ray<W> ray{load<W>(rays.origin, from), load<W>(rays.direction, from),
                    W::load(rays.t_max.data() + from)};
@@ -34,10 +36,12 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
   BoundsCast<W> bounds = cast_at_box(shape.template line_to_inner<W>(ray), half_extents,
                                      ball.radius, mask_of<W>(lanes >> from));
   if (!any(bounds.open)) return all_miss(bounds);
-  const RayNearBall<W> near = shape.template to_inner<W>(ray);
+  RayNearBall<W> near = shape.template to_inner<W>(ray);
   // Left to the single casts.
   bounds.open &=
       (!near.is_from_afar(ball.radius)) & (near.loss <= W(tolerance::small_loss<T> * ball.radius));
+  // The exit of a ray is the entry of the reversed ray.
+  if (leaves) near = near.reversed();
   cast_at_ball(near, ball.radius, bounds);
   if (!any(bounds.open)) return all_miss(bounds);
   CastLanes<W> result = with_model<W>(shape.definition(), [&](const auto& make_model) {
@@ -55,6 +59,11 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
   const Mask<W> in_range =
       abs(result.t_base + result.t_offset) < W(std::numeric_limits<T>::infinity());
   const Mask<W> numbers = has_numbers(result, normal);
+  if (leaves) {
+    result.hit &= (result.offset_hi < W(std::numeric_limits<T>::infinity())) &
+                  (normal.squaredNorm() > W(T(0)));
+    std::swap(result.offset_lo, result.offset_hi);
+  }
   keep_on_ray(ray, result);
   // Uncertain lanes are left to the single casts.
   Mask<W> hit = result.hit & in_range & numbers, inside = result.inside & numbers;
@@ -76,23 +85,23 @@ void part(const PreparedShape<Lane<W>>& shape, const RayPacket<Lane<W>>& rays, L
 
 /// Casts in parts as wide as the instruction set's registers.
 template <class T>
-void kernel(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
+void kernel(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes, bool leaves,
             CastPacket<T>& answers) {
   using W = Wide<T, static_cast<int>(IsaHere::register_bytes / sizeof(T)), IsaHere>;
   for (int from = 0; from < packet_lanes<T>; from += LaneOf<W>::count)
-    part<W>(shape, rays, lanes, static_cast<std::size_t>(from), answers);
+    part<W>(shape, rays, lanes, leaves, static_cast<std::size_t>(from), answers);
 }
 
 }  // namespace
 
 void MINKRAY_PACKET_KERNEL(const PreparedShape<float>& shape, const RayPacket<float>& rays,
-                           LaneBits lanes, CastPacket<float>& answers) {
-  kernel(shape, rays, lanes, answers);
+                           LaneBits lanes, bool leaves, CastPacket<float>& answers) {
+  kernel(shape, rays, lanes, leaves, answers);
 }
 
 void MINKRAY_PACKET_KERNEL(const PreparedShape<double>& shape, const RayPacket<double>& rays,
-                           LaneBits lanes, CastPacket<double>& answers) {
-  kernel(shape, rays, lanes, answers);
+                           LaneBits lanes, bool leaves, CastPacket<double>& answers) {
+  kernel(shape, rays, lanes, leaves, answers);
 }
 
 }  // namespace minkray

