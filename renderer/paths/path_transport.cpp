@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/paths/path_transport.h"
 
+#include <cmath>
 #include <utility>
 
 #include "renderer/paths/path_wave.h"
@@ -8,8 +9,9 @@
 namespace minkray {
 namespace {
 
-/// Paths are not ended by chance before they were scattered so often.
-constexpr int sure_depth = 4;
+/// Paths are not ended by chance before they were scattered so often; what is seen through glass or
+/// in mirrors, a little later.
+constexpr int sure_depth = 3, sure_sharp_depth = 4;
 
 /// A body is one sheet if it is so thin, over its largest extent.
 constexpr double sheet_thickness = 1e-6;
@@ -134,8 +136,9 @@ void PathTransport::Wave::scatter(Path& path, const Point& point) {
   path.pdf = sample->pdf;
   ++path.depth;
   ++(sample->is_sharp ? counts_.mirrored : counts_.scattered);
-  if (path.depth < sure_depth) return;
-  const double chance = std::min(path.throughput.maxCoeff() * path.gathered, 1.0);
+  if (path.depth < (path.only_sharp ? sure_sharp_depth : sure_depth)) return;
+  // The root: an end spares the rest of the path, but makes what goes on brighter and rarer.
+  const double chance = std::sqrt(std::min(path.throughput.maxCoeff() * path.gathered, 1.0));
   if (chance >= 1) return;
   path.goes_on = path.sampler.next()[0] < chance;
   path.throughput /= chance;
