@@ -24,6 +24,15 @@ CastResult<double> result_of(const Filtered<double>& answer) {
   return result;
 }
 
+CastResult<double> exit_by_any_stage(const PreparedShape& shape, const Ray<double>& ray,
+                                     const CastOptions& options) {
+  if (asks_filter(shape, options)) {
+    const Filtered<double> filtered = filter<true>(shape, ray, true);
+    if (filtered.is_certain()) return result_of(filtered);
+  }
+  return exit_by_later_stages(shape, ray, options);
+}
+
 }  // namespace
 
 CastResult<double> cast_ray(const PreparedShape& shape, const Ray<double>& ray,
@@ -51,16 +60,18 @@ CastResult<double> cast_ray(const ShapeDefinition& definition, const Affine<doub
 
 CastResult<double> cast_exit(const PreparedShape& shape, const Ray<double>& ray,
                              const CastOptions& options) {
-  const auto answer = [&] {
-    if (asks_filter(shape, options)) {
-      const Filtered<double> filtered = filter<true>(shape, ray, true);
-      if (filtered.is_certain()) return result_of(filtered);
-    }
-    return exit_by_later_stages(shape, ray, options);
-  };
-  CastResult<double> result = answer();
+  CastResult<double> result = exit_by_any_stage(shape, ray, options);
   // The ray may start inside, so no lower bound is claimed.
   if (result.status == Status::hit) result.offset_lo = -std::numeric_limits<double>::infinity();
+  return result;
+}
+
+CastResult<double> cast_exit_within(const PreparedShape& shape, const Ray<double>& ray,
+                                    const CastOptions& options) {
+  CastResult<double> result = exit_by_any_stage(shape, ray, options);
+  // Without an enclosing triangle there is no lower bound.
+  if (result.status == Status::hit && !(result.offset_lo <= result.t_offset))
+    result.offset_lo = -std::numeric_limits<double>::infinity();
   return result;
 }
 

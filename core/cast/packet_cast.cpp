@@ -55,6 +55,21 @@ InstructionSet best_instruction_set() {
 #endif
 }
 
+namespace {
+
+/// Casts with the shape's model, if it has one for packets; otherwise no lane is settled.
+void cast_with_models(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
+                      bool leaves, CastPacket& answers, InstructionSet set) {
+  if (!shape.definition().has_packets()) return;
+  answers.path.fill(Path::model);
+  if (set == InstructionSet::avx2)
+    packet_kernel_avx2(shape, rays, lanes, leaves, answers);
+  else
+    packet_kernel_sse2(shape, rays, lanes, leaves, answers);
+}
+
+}  // namespace
+
 void cast_packet(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
                  CastPacket& answers, InstructionSet set) {
   answers.hit = answers.inside = answers.miss = 0;
@@ -63,12 +78,8 @@ void cast_packet(const PreparedShape& shape, const RayPacket& rays, LaneBits lan
       filter_kernel_avx2(shape, rays, lanes, answers);
     else
       filter_kernel_sse2(shape, rays, lanes, answers);
-  } else if (shape.definition().has_packets()) {
-    answers.path.fill(Path::model);
-    if (set == InstructionSet::avx2)
-      packet_kernel_avx2(shape, rays, lanes, answers);
-    else
-      packet_kernel_sse2(shape, rays, lanes, answers);
+  } else {
+    cast_with_models(shape, rays, lanes, false, answers, set);
   }
   for (int lane = 0; lane < packet_lanes; ++lane) {
     const auto i = static_cast<std::size_t>(lane);
@@ -83,6 +94,22 @@ void cast_packet(const PreparedShape& shape, const RayPacket& rays, LaneBits lan
   for (int lane = 0; lane < packet_lanes; ++lane)
     if (open & (LaneBits(1) << lane))
       answers.set(lane, cast_by_later_stages(shape, rays.ray(lane), {}, {}));
+}
+
+void cast_exit_packet(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
+                      CastPacket& answers, InstructionSet set) {
+  answers.hit = answers.inside = answers.miss = 0;
+  if (shape.definition().form().kind == FormKind::none)
+    cast_with_models(shape, rays, lanes, true, answers, set);
+  answers.hit &= lanes;
+  answers.inside = answers.miss = 0;
+  for (int lane = 0; lane < packet_lanes; ++lane) {
+    const LaneBits bit = LaneBits(1) << lane;
+    if (answers.hit & bit)
+      answers.offset_lo[static_cast<std::size_t>(lane)] = -std::numeric_limits<double>::infinity();
+    else if (lanes & bit)
+      answers.set(lane, cast_exit(shape, rays.ray(lane)));
+  }
 }
 
 }  // namespace minkray

@@ -67,4 +67,8 @@ InstructionSet best_instruction_set();
 void cast_packet(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
                  CastPacket& answers, InstructionSet set = best_instruction_set());
 
+/// Same as cast_exit, for the requested lanes.
+void cast_exit_packet(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
+                      CastPacket& answers, InstructionSet set = best_instruction_set());
+
 }  // namespace minkray

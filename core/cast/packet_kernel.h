@@ -7,12 +7,13 @@
 
 namespace minkray {
 
-/// Requires a shape with a model. Lanes that do not converge are neither hit, inside nor miss.
+/// Requires a shape with a model. Lanes that do not converge are neither hit, inside nor miss. If
+/// `leaves`, hits are where rays leave the shape, and nothing is known of other lanes.
 void packet_kernel_sse2(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
-                        CastPacket& answers);
+                        bool leaves, CastPacket& answers);
 
 /// Requires a machine with AVX2 and FMA.
 void packet_kernel_avx2(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
-                        CastPacket& answers);
+                        bool leaves, CastPacket& answers);
 
 }  // namespace minkray

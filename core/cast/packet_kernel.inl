@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The body of the packet casts. MINKRAY_PACKET_KERNEL is the function's name. All other names
 // include the type of the lanes, and so the instruction set: see core/math/wide.h.
+#include <utility>
+
 #include "core/cast/packet_kernel.h"
 #include "core/cast/packet_lanes.h"
 #include "core/math/wide.h"
@@ -10,9 +12,9 @@
 namespace minkray {
 namespace {
 
-/// Takes as many lanes as W has, beginning with lane `from`.
+/// Takes as many lanes as W has, beginning with lane `from`. `leaves`: finds where rays leave.
 template <class W>
-void part(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
+void part(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes, bool leaves,
           std::size_t from, CastPacket& answers) {
   const Ray<W> ray{load<W>(rays.origin, from), load<W>(rays.direction, from),
                    W::load(rays.t_max.data() + from)};
@@ -33,10 +35,12 @@ void part(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
   BoundsCast<W> bounds = cast_at_box(shape.template line_to_inner<W>(ray), half_extents,
                                      ball.radius, mask_of<W>(lanes >> from));
   if (!any(bounds.open)) return all_miss(bounds);
-  const RayNearBall<W> near = shape.template to_inner<W>(ray);
+  RayNearBall<W> near = shape.template to_inner<W>(ray);
   // Left to the single casts.
   bounds.open &=
       (!near.is_from_afar(ball.radius)) & (near.loss <= W(tolerance::small_loss<double> * ball.radius));
+  // The exit of a ray is the entry of the reversed ray.
+  if (leaves) near = near.reversed();
   cast_at_ball(near, ball.radius, bounds);
   if (!any(bounds.open)) return all_miss(bounds);
   CastLanes<W> result = with_model<W>(shape.definition(), [&](const auto& make_model) {
@@ -54,6 +58,11 @@ void part(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
   const Mask<W> in_range =
       abs(result.t_base + result.t_offset) < W(std::numeric_limits<double>::infinity());
   const Mask<W> numbers = has_numbers(result, normal);
+  if (leaves) {
+    result.hit &= (result.offset_hi < W(std::numeric_limits<double>::infinity())) &
+                  (normal.squaredNorm() > W(0.0));
+    std::swap(result.offset_lo, result.offset_hi);
+  }
   keep_on_ray(ray, result);
   // Uncertain lanes are left to the single casts.
   Mask<W> hit = result.hit & in_range & numbers, inside = result.inside & numbers;
@@ -74,18 +83,18 @@ void part(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
 }
 
 /// Casts in parts as wide as the instruction set's registers.
-void kernel(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
+void kernel(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes, bool leaves,
             CastPacket& answers) {
   using W = Wide<double, static_cast<int>(IsaHere::register_bytes / sizeof(double)), IsaHere>;
   for (int from = 0; from < packet_lanes; from += LaneOf<W>::count)
-    part<W>(shape, rays, lanes, static_cast<std::size_t>(from), answers);
+    part<W>(shape, rays, lanes, leaves, static_cast<std::size_t>(from), answers);
 }
 
 }  // namespace
 
 void MINKRAY_PACKET_KERNEL(const PreparedShape& shape, const RayPacket& rays,
-                           LaneBits lanes, CastPacket& answers) {
-  kernel(shape, rays, lanes, answers);
+                           LaneBits lanes, bool leaves, CastPacket& answers) {
+  kernel(shape, rays, lanes, leaves, answers);
 }
 
 }  // namespace minkray

@@ -39,13 +39,15 @@ class LeastDistance {
         walk_(a_, b_, sight_),
         near_(options.tolerance * (a_.radius() + b_.radius())) {}
 
-  /// Considers only pairs of parts that are no further apart than `enough`.
-  SignedDistance run(double enough, PartPair* parts) {
+  /// Considers only pairs of parts that are no further apart than `enough`, `first` before others.
+  SignedDistance run(double enough, PartPair* parts, const PartPair& first) {
     enough_ = enough;
+    const bool is_over = is_part(a_, first.a) && is_part(b_, first.b) && visit_first(first);
     const auto key = [](double gap, const MiddleBox&, const MiddleBox&) { return gap; };
     const auto left = [&] { return limit(); };
     const double left_out =
-        a_.mesh() && b_.mesh()
+        is_over ? 0
+        : a_.mesh() && b_.mesh()
             ? walk_.run_leaves(key, left, [&](auto a, auto b) { return visit_leaves(a, b); })
             : walk_.run(key, left, [&](auto a, auto b) { return visit_by_search(a, b); });
     if (parts) *parts = parts_;
@@ -67,6 +69,16 @@ class LeastDistance {
 
   /// True if a pair with this lower bound needs no closer test.
   bool is_enough(double lower) const { return lower > limit() || lower >= best_.upper - same_; }
+
+  static bool is_part(const BodyTree& tree, std::uint32_t part) {
+    return tree.mesh() ? part < tree.mesh()->size() : part == no_part;
+  }
+  bool visit_first(const PartPair& first) {
+    if (!a_.mesh() || !b_.mesh()) return visit_by_search(first.a, first.b);
+    TriangleCorners of_b = b_.triangle(first.b);
+    for (Vec3<double>& corner : of_b) corner = sight_.b_in_a.turn * corner + sight_.b_in_a.shift;
+    return visit_triangles(a_.triangle(first.a), first.a, of_b, first.b);
+  }
 
   bool visit_leaves(BodyTree::Box leaf_a, BodyTree::Box leaf_b) {
     EightTriangles of_a, of_b;
@@ -209,7 +221,7 @@ std::optional<Vec3<double>> point_within(const PartsBody& a, const Affine<double
 
 SignedDistance signed_distance(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
                                const Affine<double>& pose_b, const SignedDistanceOptions& options,
-                               PartPair* parts) {
+                               PartPair* parts, PartPair first) {
   if (parts) *parts = {};
   if (!a.mesh() && !b.mesh())
     return signed_distance(*a.shape(), pose_a, *b.shape(), pose_b, options);
@@ -217,7 +229,7 @@ SignedDistance signed_distance(const PartsBody& a, const Affine<double>& pose_a,
   // 0).
   const std::optional<Vec3<double>> within = point_within(a, pose_a, b, pose_b);
   LeastDistance least(a, pose_a, b, pose_b, options);
-  SignedDistance found = least.run(options.only_sign || within ? 0 : options.at_most, parts);
+  SignedDistance found = least.run(options.only_sign || within ? 0 : options.at_most, parts, first);
   if (least.is_crossed()) {
     set_overlapping(found);
   } else if (within) {

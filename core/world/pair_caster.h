@@ -17,6 +17,11 @@ struct OpenPair {
   float first;
 };
 
+/// True if pairs with the instance wait for packets.
+inline bool is_formless(const Instances& instances, std::uint32_t instance) {
+  return instances.body_of(instance).definition->form().kind == FormKind::none;
+}
+
 /// Calls on_found(ray, instance, t, result) for pairs that meet. Here result() returns the
 /// CastResult.
 template <class OnFound>
@@ -29,16 +34,16 @@ class PairCaster {
         rays_(rays),
         counts_(counts),
         on_found_(std::move(on_found)) {
-    // Uses queues only if there are enough rays to fill them.
-    if (instances.bodies().size() <= rays.size() && !instances.move())
-      queues_.resize(instances.bodies().size());
+    // Queues need enough rays to fill them.
+    has_queues_ = instances.bodies().size() <= rays.size() && !instances.move();
   }
 
   void add(std::uint32_t ray, std::uint32_t instance) {
     const std::uint32_t body = instances_.places()[instance].body;
     const InstanceBody& of = instances_.bodies()[body];
-    if (queues_.empty() || of.is_wide || of.definition->form().kind == FormKind::none)
+    if (!has_queues_ || of.is_wide || of.definition->form().kind == FormKind::none)
       return cast_alone(ray, instance);
+    if (queues_.empty()) queues_.resize(instances_.bodies().size());
     Queue& queue = queues_[body];
     queue.ray[queue.count] = ray;
     queue.instance[queue.count++] = instance;
@@ -79,7 +84,7 @@ class PairCaster {
       cast_packet(shape, packet, (LaneBits(1) << used) - 1, answers);
       for (int lane = 0; lane < used; ++lane) {
         const CastResult<double> result = answers.result(lane);
-        counts_.add_cast(result);
+        count(ray_of[lane], result);
         if (result.found()) on_found_(ray_of[lane], instance, result.t(), [&] { return result; });
       }
     }
@@ -142,7 +147,8 @@ class PairCaster {
   RaySpan rays_;
   QueryCounts& counts_;
   OnFound on_found_;
-  std::vector<Queue> queues_;             ///< by body, or none
+  bool has_queues_;
+  std::vector<Queue> queues_;             ///< by body; none before the first pair
   std::vector<std::uint32_t> exhausted_;  ///< rays with a cast that did not converge
 };
 

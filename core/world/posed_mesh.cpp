@@ -4,7 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "core/math/outward_sum.h"
 #include "core/math/two_fold.h"
+#include "core/mesh/crossings.h"
 #include "core/mesh/mesh_rays.h"
 #include "core/query/tolerances.h"
 #include "core/world/posed_mesh_rays.h"
@@ -21,6 +23,10 @@ constexpr double map_rounding = 3 * tolerance::epsilon<double>;
 
 /// Directions that are shorter, or longer than the inverse, are scaled to a length of about 1.
 constexpr double shortest = 0x1p-64;
+
+/// The t of a hit is refined after the search, so another mesh's hit at the same t may be less than
+/// this one's t in the search, by this share of it.
+constexpr double rounding_of_most = 0x1p-20;
 
 /// The ray in the mesh's frame. Its direction is longer by 2^exponent there.
 struct NearRay {
@@ -55,7 +61,7 @@ NearRay near_ray(const PosedMesh& posed, const Ray<double>& ray,
     near.ray.direction = direction;
     if (!from.low.isZero(0)) near.origin_loss = from.low.norm();
   }
-  near.ray.t_max = std::min(near.in_near(ray.t_max), near.in_near(most));
+  near.ray.t_max = std::min(near.in_near(ray.t_max), near.in_near(most) * (1 + rounding_of_most));
   near.is_number = size > 0 && near.ray.origin.cwiseAbs().maxCoeff() <= largest_number &&
                    near.ray.direction.cwiseAbs().maxCoeff() <= largest_number;
   return near;
@@ -181,6 +187,55 @@ CastResult<double> cast_exit(const PosedMesh& posed, const Ray<double>& ray) {
   exit.status = Status::hit;
   exit.t_offset = near.in_world(hits[last].t);
   return exit;
+}
+
+MeshCast cast_last_exit(const PosedMesh& posed, const Ray<double>& ray, double loss) {
+  const NearRay near = near_ray(posed, ray);
+  if (!near.is_number) return without_hit(ray);
+  const TriangleMesh& mesh = *posed.mesh;
+  if (std::isfinite(near.ray.t_max) && mesh.is_closed()) {
+    Ray<double> endless = near.ray;
+    endless.t_max = std::numeric_limits<double>::infinity();
+    int turns = 0;
+    for (const PartHit& hit : crossings(mesh, endless))
+      if (hit.t > near.ray.t_max) turns += hit.is_back ? 1 : -1;
+    if (turns != 0) {
+      MeshCast end;
+      end.cast = {Status::inside, Path::filter, ray.t_max, 0, 0, 0};
+      return end;
+    }
+  }
+  std::vector<PartHit> hits = all_parts(mesh, near.ray);
+  std::erase_if(hits, [&](const PartHit& hit) { return is_missed_from_behind(mesh, hit); });
+  PartHit last;
+  for (const PartHit& hit : hits)
+    if (!last.found() || hit.t > last.t) last = hit;
+  MeshCast exit = cast_of(posed, near, last, loss);
+  if (exit.cast.status != Status::hit) return exit;
+  exit.cast.normal *= -1;
+  // Another triangle may be the last one, as far as the errors tell.
+  for (const PartHit& hit : hits) {
+    if (hit.t + hit.error < last.t - last.error) continue;
+    const CastResult<double> other = cast_of(posed, near, hit, loss).cast;
+    exit.cast.offset_hi =
+        std::max(exit.cast.offset_hi,
+                 sum_or_more(sum_or_more(other.t_base, other.offset_hi), -exit.cast.t_base));
+  }
+  return exit;
+}
+
+bool add_crossings(const PosedMesh& posed, const Ray<double>& ray, double loss,
+                   std::vector<MeshCrossing>& to) {
+  const NearRay near = near_ray(posed, ray);
+  if (!near.is_number) return without_hit(ray).cast.status == Status::miss;
+  for (const PartHit& hit : crossings(*posed.mesh, near.ray)) {
+    if (is_missed_from_behind(*posed.mesh, hit)) continue;
+    MeshCast at = cast_of(posed, near, hit, loss);
+    if (!at.cast.found()) return false;
+    if (hit.is_back) at.cast.normal *= -1;
+    to.push_back({at, hit.is_back});
+  }
+  return true;
 }
 
 bool is_met(const PosedMesh& posed, const Ray<double>& ray, bool leaves, PartCounts& counts) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "core/math/affine.h"
 #include "core/mesh/mesh_ray.h"
@@ -36,13 +37,28 @@ struct MeshCast {
 /// rounding of the origin. Relative to the mesh's size and the ray's distance from the mesh.
 inline constexpr double leaving_mesh = 0x1p-36;
 
-/// Hits beyond t = `most`, which may be infinite, do not matter. `loss` is the error of the ray's
-/// position. Returns `exhausted` instead of a miss if numbers are too large.
+/// Hits beyond t = `most`, which may be infinite, do not matter: some are returned. `loss` is the
+/// error of the ray's position. Returns `exhausted` instead of a miss if numbers are too large.
 MeshCast cast_ray(const PosedMesh& posed, const Ray<double>& ray, double most, bool leaves,
                   double loss, PartCounts& counts);
 /// Finds where a ray from outside leaves a closed mesh: at the second intersection, or at the first
 /// one if there is only one. Sets only the status and t.
 CastResult<double> cast_exit(const PosedMesh& posed, const Ray<double>& ray);
+/// Finds where the ray leaves the mesh for the last time: the last hit of any triangle. Inside: the
+/// ray ends at ray.t_max within a closed mesh. The normal points along the ray.
+MeshCast cast_last_exit(const PosedMesh& posed, const Ray<double>& ray, double loss);
+
+/// A triangle that the ray passes; the normal is that of the triangle's front, by the order of its
+/// vertices.
+struct MeshCrossing {
+  MeshCast at;
+  bool leaves = false;  ///< the ray goes with the normal
+};
+/// Appends all triangles that the ray passes, in the order of crossings(). Returns false if numbers
+/// are too large.
+bool add_crossings(const PosedMesh& posed, const Ray<double>& ray, double loss,
+                   std::vector<MeshCrossing>& to);
+
 /// True if the ray hits the mesh at t <= ray.t_max.
 bool is_met(const PosedMesh& posed, const Ray<double>& ray, bool leaves, PartCounts& counts);
 

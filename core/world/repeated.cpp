@@ -22,8 +22,8 @@ std::uint64_t hash_of(const Instances& instances, std::uint32_t i) {
 
 }  // namespace
 
-std::vector<std::uint32_t> repeated_instances(const Instances& instances) {
-  std::vector<std::uint32_t> repeated;
+std::vector<RepeatedInstance> repeated_instances(const Instances& instances) {
+  std::vector<RepeatedInstance> repeated;
   const auto count = static_cast<std::uint32_t>(instances.size());
   if (instances.move() || count < 3) return repeated;
   // Most worlds have no repeated instances: a small table of counts by hash shows this quickly.
@@ -45,7 +45,7 @@ std::vector<std::uint32_t> repeated_instances(const Instances& instances) {
     if (std::count_if(same_hash.begin(), same_hash.end(), is_same) < 2)
       same_hash.push_back(i);
     else
-      repeated.push_back(i);
+      repeated.push_back({i, *std::find_if(same_hash.begin(), same_hash.end(), is_same)});
   }
   return repeated;
 }

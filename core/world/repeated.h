@@ -9,9 +9,14 @@
 
 namespace minkray {
 
+/// An instance, and one of lower index with the same shape, pose and ray kinds.
+struct RepeatedInstance {
+  std::uint32_t number, same_as;
+};
+
 /// Returns the instances that no ray can hit first, in ascending order. For each of them, two
 /// instances with lower indices have the same shape, pose and ray kinds, and a ray skips at most
 /// one instance. Empty if any instance moves.
-std::vector<std::uint32_t> repeated_instances(const Instances& instances);
+std::vector<RepeatedInstance> repeated_instances(const Instances& instances);
 
 }  // namespace minkray

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "core/world/world.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/bvh/traverse.h"
-#include "core/world/repeated.h"
 #include "core/world/single_ray.h"
 
 namespace minkray {
@@ -43,19 +43,18 @@ std::vector<Bounds<float>> World::boxes_of_meshes(
 /// The BVH contains all shapes that a ray can hit first.
 void World::build(const FirstTouchVector<Bounds<float>>& boxes) {
   kind_of_all_ = instances_.kind_of_all();
-  const std::vector<std::uint32_t> repeated = repeated_instances(instances_);
-  has_repeated_ = !repeated.empty();
+  repeated_ = repeated_instances(instances_);
   const RayKinds* const shown_to = instances_.shown_to();
   mesh_boxes_ = build_bvh(boxes_of_meshes(boxes), build_);
-  if (!instances_.have_shapeless() && !has_repeated_ && !shown_to) {
+  if (!instances_.have_shapeless() && repeated_.empty() && !shown_to) {
     bvh_ = build_bvh(boxes, build_);
     return;
   }
   std::vector<Bounds<float>> bounded;
   std::vector<std::uint32_t> number;
-  auto left_out = repeated.begin();
+  auto left_out = repeated_.begin();
   for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-    if (left_out != repeated.end() && *left_out == i) {
+    if (left_out != repeated_.end() && left_out->number == i) {
       ++left_out;
       continue;
     }
@@ -63,6 +62,8 @@ void World::build(const FirstTouchVector<Bounds<float>>& boxes) {
     bounded.push_back(boxes[i]);
     number.push_back(i);
   }
+  std::ranges::sort(repeated_, {},
+                    [](const RepeatedInstance& one) { return std::pair(one.same_as, one.number); });
   bvh_ = build_bvh(bounded, build_);
   for (BvhNode& node : bvh_.nodes)
     for (std::uint32_t& child : node.children)
@@ -190,7 +191,7 @@ void World::pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
   kind_of_all_ = instances_.kind_of_all();
   const FirstTouchVector<Bounds<float>> boxes = instances_.take_boxes();
   if (visits_as_built_ == 0) visits_as_built_ = visits();
-  if (has_repeated_) {  // the instances may be at different poses now
+  if (!repeated_.empty()) {  // the instances may be at different poses now
     build(boxes);
     visits_as_built_ = visits();
     return;

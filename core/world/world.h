@@ -10,6 +10,7 @@
 #include "core/cast/cast.h"
 #include "core/cast/packet_cast.h"
 #include "core/world/instances.h"
+#include "core/world/repeated.h"
 #include "core/world/world_ray.h"
 
 namespace minkray {
@@ -60,6 +61,11 @@ class World {
   }
   bool occluded(const WorldRay& ray, QueryCounts& counts) const;
 
+  /// Appends all points with 0 <= t <= t_max where the ray enters or leaves an instance, by t and
+  /// instance. An instance in which the ray begins is only left, one in which it ends only entered.
+  /// Ignores all of `skip`.
+  void all_hits(const WorldRay& ray, std::vector<WorldCrossing>& to, QueryCounts& counts) const;
+
   /// Finds the first hits of many rays. Large batches and similar neighbours are faster.
   void closest_hits(const RaySpan& rays, HitReceiver& to, QueryCounts& counts) const;
   /// Sets hits[i] to the result of rays[i].
@@ -96,6 +102,10 @@ class World {
   std::vector<Bounds<float>> boxes_of_meshes(const FirstTouchVector<Bounds<float>>& boxes) const;
   /// Casts at an instance that does not move, with the default options.
   CastResult<double> cast_at_rest(std::uint32_t instance, const Ray<double>& ray) const;
+  void add_shape_crossings(const WorldRay& ray, std::uint32_t instance,
+                           std::vector<WorldCrossing>& to, QueryCounts& counts) const;
+  void add_shapeless_crossings(const WorldRay& ray, std::vector<WorldCrossing>& to,
+                               QueryCounts& counts) const;
   /// Tries float lanes; returns false if they are inconclusive.
   bool closer_candidate(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
   SingleRay single_ray(const WorldRay& ray) const;
@@ -134,7 +144,8 @@ class World {
   Bvh bvh_;         ///< of instances with shapes
   Bvh mesh_boxes_;  ///< of meshes; indices are those in Instances::meshes()
   BvhBuild build_ = BvhBuild::quality;
-  bool has_repeated_ = false;   ///< duplicates are left out of the BVH
+  /// Left out of the BVH; by the instances that they are the same as.
+  std::vector<RepeatedInstance> repeated_;
   double visits_as_built_ = 0;  ///< expected per ray; 0: not known yet
   CastOptions options_;
   bool is_default_ = true;  ///< the options allow packets and closed forms

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/bvh/traverse.h"
+#include "core/world/pair_caster.h"
 #include "core/world/ray_block.h"
 #include "core/world/world.h"
 
@@ -127,10 +128,26 @@ bool World::answer_block(const RaySpan& rays, std::size_t first, HitReceiver& to
       cast_at(i, hits.instance[i]);
     }
   }
+  const auto is_due = [&](const auto& pair) {
+    return pair.first <= answer.limit[pair.ray] &&
+           !(closest[pair.ray].found() &&
+             closest[pair.ray].cast.t() < static_cast<double>(pair.first));
+  };
+  std::vector<OpenPair> formless;
   for (std::size_t i = 0; i < answer.other_count; ++i) {
     const BlockAnswer::Other& other = answer.others[i];
-    if (other.first <= answer.limit[other.ray]) cast_at(other.ray, other.instance);
+    if (!is_due(other)) continue;
+    if (is_formless(instances_, other.instance))
+      formless.push_back({other.ray, other.instance, other.first});
+    else
+      cast_at(other.ray, other.instance);
   }
+  const auto keep = [&](std::uint32_t ray, std::uint32_t instance, double t, const auto& result) {
+    if (closest[ray].yields_to(instance, t)) closest[ray] = {instance, result()};
+  };
+  PairCaster<decltype(keep)> caster(instances_, options_, rays, counts, keep);
+  caster.cast_formless(formless, is_due);
+  for (const std::uint32_t ray : caster.exhausted()) exhausted |= std::uint64_t{1} << ray;
   for (std::uint64_t left = special; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
     // Traces the ray alone if a certain hit was not confirmed, or a solver failed to converge.

@@ -81,6 +81,15 @@ struct WorldHit {
   }
 };
 
+/// A point where a ray enters or leaves an instance.
+struct WorldCrossing {
+  std::uint32_t instance = no_instance;
+  std::uint32_t part = no_part;      ///< of a mesh: the triangle
+  double t = 0, t_lo = 0, t_hi = 0;  ///< t and its bounds
+  Vec3<double> point, normal;        ///< the normal is outward; of a mesh, by the order of vertices
+  bool leaves = false;
+};
+
 /// A ray with its time (0 to 1), its kinds, and an instance to skip. The ray hits only instances
 /// that are shown to one of its kinds.
 struct WorldRay {

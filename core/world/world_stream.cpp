@@ -27,11 +27,6 @@ void walk_pairs(const Bvh& bvh, std::span<SlabRay> slabs, Screen& screen, QueryC
   screen.finish();
 }
 
-/// True if pairs with the instance wait for packets.
-bool is_formless(const Instances& instances, std::uint32_t instance) {
-  return instances.body_of(instance).definition->form().kind == FormKind::none;
-}
-
 }  // namespace
 
 void World::answer_stream(const RaySpan& rays, std::size_t first, HitReceiver& to,

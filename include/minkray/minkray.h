@@ -690,6 +690,8 @@ struct Verdict {
 static_assert(sizeof(Verdict) == sizeof(minkray_verdict) &&
               offsetof(Verdict, status) == offsetof(minkray_verdict, status));
 
+class AllHits;  // see minkray/all_hits.h
+
 // Types for queries on the pairs of a scene, which minkray/pairs.h defines.
 struct Bodies;
 struct Manifold;
@@ -845,13 +847,16 @@ class Scene {
     detail::check(minkray_scene_occluded_rays(handle_, detail::plain(rays), rays.size(),
                                               answers.data(), &how));
   }
-  /// Finds where a ray leaves an object.
+  /// Finds where a ray leaves an object for the last time; see minkray_scene_exit.
   Hit exit(std::uint32_t object, const Ray& ray) const {
     Hit found;
     detail::check(minkray_scene_exit(handle_, object, detail::plain({&ray, 1}), 1,
                                      detail::plain({&found, 1}), nullptr));
     return found;
   }
+  /// Finds all points where rays enter or leave objects, sorted by t; see minkray/all_hits.h.
+  AllHits all_hits(View<const Ray> rays, const Options& options = {}) const;
+  AllHits all_hits(const Ray& ray) const;
   /// Proves results of `cast`.
   void prove(View<const Ray> rays, View<const Hit> hits, View<Proof> proofs,
              const Options& options = {}) const {
@@ -1042,5 +1047,6 @@ inline Impact time_of_impact(const Shape& a, const Pose& pose_a, const Twist& tw
 }  // namespace v0
 }  // namespace minkray
 
+#include "minkray/all_hits.h"
 #include "minkray/pairs.h"
 #include "minkray/ray_derivatives.h"

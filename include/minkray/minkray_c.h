@@ -346,10 +346,50 @@ MINKRAY_API int minkray_scene_occluded_rays(minkray_scene scene, const minkray_r
                                             size_t count, uint8_t* blocked,
                                             const minkray_options* options);
 
-/* Finds where rays leave one object: MINKRAY_HIT at the greatest t, MINKRAY_INSIDE if they end in
- * it at t_max, MINKRAY_MISS if they miss it. Not for half-spaces, which are unbounded. */
+/* Finds where rays leave one object for the last time: MINKRAY_HIT at the greatest t with a point
+ * of the object, MINKRAY_INSIDE if they end in it at t_max, MINKRAY_MISS if they miss it. A ray may
+ * have left a mesh before, and entered it again. Of an open mesh, which has no inside, the result
+ * is the last triangle that is hit. Normals point out of the object, of a mesh along the ray. Not
+ * for half-spaces, which are unbounded. */
 MINKRAY_API int minkray_scene_exit(minkray_scene scene, uint32_t object, const minkray_ray* rays,
                                    size_t count, minkray_hit* hits, const minkray_options* options);
+
+/* A point where a ray enters or leaves an object. */
+typedef struct minkray_crossing {
+  double t;
+  double t_lo; /* proven bounds of t */
+  double t_hi;
+  double point[3];
+  double normal[3]; /* outward unit vector; of a mesh, by the order of the triangle's vertices */
+  uint32_t object;
+  int32_t part;   /* of a mesh: the triangle; else -1 */
+  int32_t leaves; /* 0: the ray enters the object; 1: it leaves */
+  int32_t reserved;
+} minkray_crossing;
+
+/* All hits of rays: those of ray i are hits[offsets[i]] to hits[offsets[i + 1] - 1]. */
+typedef struct minkray_all_hits {
+  size_t size; /* sizeof(minkray_all_hits) */
+  size_t rays;
+  const size_t* offsets; /* rays + 1 numbers */
+  const minkray_crossing* hits;
+  const uint8_t*
+      status; /* per ray: MINKRAY_HIT, MINKRAY_MISS (no hits), or MINKRAY_EXHAUSTED if the
+               * solver did not converge for some object, whose hits may be missing */
+} minkray_all_hits;
+
+/* Receives all hits, on the calling thread; they are invalid after it returns. Returns 0, or
+ * nonzero to end the call with MINKRAY_STOPPED. */
+typedef int (*minkray_take_all_hits)(void* user, const minkray_all_hits* found);
+
+/* Finds all points with 0 <= t <= t_max where rays enter or leave objects. A ray's hits are sorted
+ * by t, then by object. An object that a ray begins in is only left, one that it ends in only
+ * entered. A closed mesh without self-intersections is entered and left in turn, also where the ray
+ * passes exactly through edges and vertices. A ray that only touches a mesh there enters and leaves
+ * it at the same t, or does not hit it. */
+MINKRAY_API int minkray_scene_all_hits(minkray_scene scene, const minkray_ray_arrays* rays,
+                                       size_t count, minkray_take_all_hits take, void* user,
+                                       const minkray_options* options);
 
 /* Casts rays at one shape alone. `pose` may be NULL. */
 MINKRAY_API int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose,

@@ -5,6 +5,7 @@
 
 // Example:
 //   mk::ray_derivatives(scene, rays, hits, {by_ray, by_body, is_ridge});
+#include "minkray/all_hits.h"
 #include "minkray/minkray.h"
 #include "minkray/minkray_c_pairs.h"
 
@@ -27,16 +28,6 @@ struct RayDerivatives {
 };
 
 namespace detail {
-/// An array that is released at the end.
-template <class Item>
-struct Room {
-  explicit Room(std::size_t size) : items(new Item[size]) {}
-  Room(const Room&) = delete;
-  Room& operator=(const Room&) = delete;
-  ~Room() { delete[] items; }
-  Item* items;
-};
-
 /// Hits as the C function reads them, an array per field.
 struct HitArrays {
   Room<double> t, t_lo, t_hi;

@@ -2,6 +2,7 @@
 #include "renderer/film/render.h"
 
 #include <atomic>
+#include <utility>
 #include <vector>
 
 #include "renderer/film/camera_rays.h"
@@ -163,7 +164,9 @@ class Rendered {
 
   /// Adds a pass of samples to each unfinished pixel. False if all are finished.
   bool trace(const PixelBlock& pixels, const Pass& part, PixelSum* sums, RayCounts& counts) {
-    std::vector<TracedRay> rays;
+    thread_local std::vector<TracedRay> kept;  // new pages for each group cost more than its rays
+    std::vector<TracedRay> rays = std::exchange(kept, {});
+    rays.clear();
     rays.reserve(pixels.count() * static_cast<std::size_t>(part.end - part.first));
     const PixelSum* asked = sums;
     pixels.for_each([&](const Pixel& pixel) {
@@ -181,6 +184,7 @@ class Rendered {
           add(pixel, *sum, sample, *ray++, sample + 1 == part.end);
       ++sum;
     });
+    kept = std::move(rays);
     return true;
   }
 

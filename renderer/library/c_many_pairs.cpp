@@ -45,7 +45,7 @@ void ask_all(const BodiesOfPairs& a, const BodiesOfPairs& b, std::size_t count,
   throw_if_lied(b.customs());
 }
 
-/// True if neither is a mesh; pairs with meshes keep nothing in memories.
+/// True if neither is a mesh.
 bool are_shapes(const PosedBody& a, const PosedBody& b) {
   return !a.is_mesh() && !b.is_mesh();
 }
@@ -54,7 +54,19 @@ SignedDistance distance_of(const PosedBody& a, const PosedBody& b, PairMemory* m
                            const SignedDistanceOptions& options) {
   if (are_shapes(a, b) && memory)
     return signed_distance(a.shape(), a.pose(), b.shape(), b.pose(), *memory, options);
-  return signed_distance(a.parts(), a.pose(), b.parts(), b.pose(), options);
+  if (!memory) return signed_distance(a.parts(), a.pose(), b.parts(), b.pose(), options);
+  // Of meshes the memory keeps the nearest parts, as features.
+  PartPair parts;
+  if (memory->count == 1)
+    parts = {static_cast<std::uint32_t>(memory->feature_a[0]),
+             static_cast<std::uint32_t>(memory->feature_b[0])};
+  const SignedDistance found =
+      signed_distance(a.parts(), a.pose(), b.parts(), b.pose(), options, &parts, parts);
+  *memory = {};
+  memory->feature_a[0] = static_cast<std::int32_t>(parts.a);
+  memory->feature_b[0] = static_cast<std::int32_t>(parts.b);
+  memory->count = 1;
+  return found;
 }
 
 template <class To, class From>

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/cast/later_stages.h"
 #include "renderer/library/handles/call.h"
 #include "renderer/library/handles/held_scene.h"
 #include "renderer/library/handles/held_shape.h"
@@ -90,6 +91,20 @@ void cast_at_one(const PreparedShape& shape, std::uint32_t object, const RaySour
       WorldHit hit{no_instance, cast(shape, ray)};
       if (hit.cast.found()) hit.instance = object;
       hits[i] = plain_hit(ray, hit, hit.cast.status == Status::exhausted);
+    }
+  });
+}
+
+/// Likewise, at one mesh.
+template <class Cast>
+void cast_at_mesh(std::uint32_t object, const RaySource& rays, minkray_hit* hits,
+                  const minkray_options* options, Cast&& cast) {
+  work_on_rays(rays.size(), options, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Ray<double> ray = rays[i];
+      const MeshCast met = cast(ray);
+      const WorldHit hit{met.cast.found() ? object : no_instance, met.cast, met.part};
+      plain_hit(ray, hit, met.cast.status == Status::exhausted, hits[i]);
     }
   });
 }
@@ -182,10 +197,20 @@ int minkray_scene_exit(minkray_scene scene, uint32_t object, const minkray_ray* 
     if (object < held->size()) held->check_object(object);
     if (instances.is_half_space(object))
       wrong_use("object: must not be a half-space, since rays never leave it");
-    if (instances.is_mesh(object)) wrong_use("object: must be convex (got a mesh)");
-    cast_at_one(
-        instances.at(object), object, RaySource(rays, count), hits, options,
-        [](const PreparedShape& shape, const Ray<double>& ray) { return cast_exit(shape, ray); });
+    const RaySource source(rays, count);
+    if (instances.is_mesh(object)) {
+      const PosedMesh& mesh = instances.mesh_of(object);
+      cast_at_mesh(object, source, hits, options,
+                   [&](const Ray<double>& ray) { return cast_last_exit(mesh, ray, 0); });
+      return;
+    }
+    cast_at_one(instances.at(object), object, source, hits, options,
+                [](const PreparedShape& shape, const Ray<double>& ray) {
+                  CastResult<double> exit = cast_exit_within(shape, ray);
+                  if (exit.status == Status::hit)
+                    exit.offset_lo = std::max(exit.offset_lo, -exit.t_base);
+                  return exit;
+                });
     throw_if_lied(held->customs());
   });
 }
@@ -198,15 +223,9 @@ int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose, const mink
     if (count > 0) require(hits, "hits");
     if (held.mesh()) {
       const PosedMesh posed(0, held.mesh(), pose_of(pose, "pose"));
-      const RaySource source(rays, count);
-      work_on_rays(count, options, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          const Ray<double> ray = source[i];
-          PartCounts parts;
-          const MeshCast met = cast_ray(posed, ray, ray.t_max, false, 0, parts);
-          const WorldHit hit{met.cast.found() ? 0 : no_instance, met.cast, met.part};
-          plain_hit(ray, hit, met.cast.status == Status::exhausted, hits[i]);
-        }
+      cast_at_mesh(0, RaySource(rays, count), hits, options, [&](const Ray<double>& ray) {
+        PartCounts parts;
+        return cast_ray(posed, ray, ray.t_max, false, 0, parts);
       });
       return;
     }

@@ -138,7 +138,7 @@ std::optional<Vec3<double>> AroundBody::sample(const Vec3<double>& point,
     place[axis] = towards[axis] < 0 ? half_extents[axis] : -half_extents[axis];
     place[x] = on_face[0] * half_extents[x];
     place[y] = on_face[1] * half_extents[y];
-    return Vec3<double>((map.inverse() * (place + towards)).normalized());
+    return Vec3<double>((inverse * (place + towards)).normalized());
   }
   const double d2 = towards.squaredNorm();
   if (!(d2 > 1)) return std::nullopt;
@@ -147,7 +147,7 @@ std::optional<Vec3<double>> AroundBody::sample(const Vec3<double>& point,
   const Frame frame(towards / std::sqrt(d2));
   const Vec3<double> drawn =
       frame.to_world({sine * std::cos(angle), sine * std::sin(angle), 1 - below});
-  return Vec3<double>((map.inverse() * drawn).normalized());
+  return Vec3<double>((inverse * drawn).normalized());
 }
 
 double AroundBody::pdf(const Vec3<double>& point, const Vec3<double>& direction) const {
@@ -181,6 +181,7 @@ AroundBody around(const PreparedShape& body) {
   if (!result.is_box()) result.map = axes.cwiseInverse().asDiagonal();
   const Mat3<double>* linear = body.linear_to_inner();
   if (linear) result.map = result.map * *linear;
+  result.inverse = result.map.inverse();
   result.determinant = std::abs(result.map.determinant());
   // The two larger half axes in the world, as if it were not sheared.
   const double scale = linear ? std::cbrt(1 / std::abs(linear->determinant())) : 1;
@@ -224,7 +225,7 @@ void Emitters::add_mesh(std::uint32_t instance, const RadianceOfPart& radiance_o
   if (lamp->none()) return;
   AroundBody body;
   body.centre = lamp->centre();
-  body.map = Mat3<double>::Identity();
+  body.map = body.inverse = Mat3<double>::Identity();
   body.determinant = 1;
   body.size2 = lamp->size2();
   lights.push_back({lamp->centre(), lamp->radius(), lamp->power()});

@@ -23,7 +23,7 @@ namespace minkray {
 /// half_extents. Points outside of the ellipsoid are not drawn.
 struct AroundBody {
   Vec3<double> centre;
-  Mat3<double> map;
+  Mat3<double> map, inverse;
   Vec3<double> half_extents = Vec3<double>::Zero();  ///< zero: an ellipsoid
   double determinant;                                ///< of the map, positive
   double size2;                                      ///< about its shadow's area over pi

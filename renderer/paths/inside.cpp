@@ -2,8 +2,10 @@
 #include "renderer/paths/inside.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "core/bvh/traverse.h"
+#include "core/cast/packet_cast.h"
 
 namespace minkray {
 namespace {
@@ -13,6 +15,33 @@ namespace {
 /// units (docs/decisions/path-tracing.md); the shape itself is left out of the cast, so this
 /// only keeps other shapes with a face in the same plane from shading each other.
 constexpr double surface_offset = 256;
+
+/// Exit by the result of cast_exit at a body with a shape.
+Boundary exit_by(const World& world, const WorldRay& ray, std::uint32_t body,
+                 const CastResult<double>& cast, QueryCounts& counts) {
+  const Instances& instances = world.instances();
+  const Ray<double> seen = instances.seen_by(body, ray.ray, ray.time);
+  Boundary exit;
+  exit.instance = body;
+  exit.leaves = true;
+  counts.iterations += static_cast<std::uint64_t>(cast.iterations);
+  counts.supports += static_cast<std::uint64_t>(cast.supports);
+  ++counts.by_path[static_cast<std::size_t>(cast.path)];
+  if (cast.status == Status::hit) {
+    exit.t = std::max(cast.t(), double(0));
+    exit.normal = cast.normal;
+  } else if (cast.status == Status::miss) {
+    // On the surface and going along it: by rounding, out of it at once.
+    exit.normal = cast.normal.dot(seen.direction) > 0 && cast.normal.allFinite()
+                      ? unit<double>(cast.normal)
+                      : unit<double>(seen.direction);
+  } else {
+    ++counts.exhausted;
+    exit.is_lost = true;
+  }
+  exit.normal = instances.turned(body, exit.normal, ray.time);
+  return exit;
+}
 
 /// Finds where the ray leaves a body that it is in.
 Boundary exit_of(const World& world, const WorldRay& ray, std::uint32_t body, QueryCounts& counts) {
@@ -46,25 +75,8 @@ Boundary exit_of(const World& world, const WorldRay& ray, std::uint32_t body, Qu
     exit.normal = instances.turned(body, -next.cast.normal, ray.time);
     return exit;
   }
-  const CastResult<double> cast =
-      cast_exit(instances.at_seen_by(body, ray.ray), seen, world.options());
-  counts.iterations += static_cast<std::uint64_t>(cast.iterations);
-  counts.supports += static_cast<std::uint64_t>(cast.supports);
-  ++counts.by_path[static_cast<std::size_t>(cast.path)];
-  if (cast.status == Status::hit) {
-    exit.t = std::max(cast.t(), double(0));
-    exit.normal = cast.normal;
-  } else if (cast.status == Status::miss) {
-    // On the surface and going along it: by rounding, out of it at once.
-    exit.normal = cast.normal.dot(seen.direction) > 0 && cast.normal.allFinite()
-                      ? unit<double>(cast.normal)
-                      : unit<double>(seen.direction);
-  } else {
-    ++counts.exhausted;
-    exit.is_lost = true;
-  }
-  exit.normal = instances.turned(body, exit.normal, ray.time);
-  return exit;
+  return exit_by(world, ray, body,
+                 cast_exit(instances.at_seen_by(body, ray.ray), seen, world.options()), counts);
 }
 
 /// The closest hit but of some instances.
@@ -111,6 +123,61 @@ WorldHit closest_but(const World& world, const WorldRay& ray, std::span<const st
   return closest;
 }
 
+/// First of the exits of a ray from the bodies around it, and of the bodies that it enters.
+/// exit_at(k) is the exit from the body of that place.
+template <class ExitAt, class HalfExtent>
+Boundary nearer_of(const World& world, const WorldRay& ray, const Inside& inside,
+                   const ExitAt& exit_at, const HalfExtent& half_extent, QueryCounts& counts) {
+  Boundary next;
+  next.t = ray.ray.t_max;
+  for (std::size_t k = 0; k < inside.bodies().size(); ++k) {
+    const Boundary exit = exit_at(k);
+    if (exit.is_lost) return exit;
+    if (exit.t < next.t) next = exit;
+  }
+  WorldRay ahead = ray;
+  if (next.leaves)
+    ahead.ray.t_max = next.t + rounding_at(half_extent(next.instance), ray.ray.at(next.t), next.t);
+  const WorldHit entered = closest_but(world, ahead, inside.bodies(), counts);
+  if (entered.found()) return boundary_of(entered);
+  return next;
+}
+
+/// A body around a ray, and the place of its exit in a list.
+struct RayWithin {
+  std::uint32_t body, ray, place;
+};
+
+/// True if exits from the body are cast in packets.
+bool goes_together(const World& world, std::uint32_t body) {
+  const Instances& instances = world.instances();
+  if (instances.move() || !instances.has_shape(body)) return false;
+  const ShapeDefinition& definition = *instances.body_of(body).definition;
+  return definition.form().kind == FormKind::none && definition.has_packets() &&
+         world.options().solver == SolverKind::automatic;
+}
+
+/// Finds the exits of up to a packet of rays from one body.
+void find_exits(const World& world, std::span<const WorldRay> rays,
+                std::span<const RayWithin> within, std::span<Boundary> exits, QueryCounts& counts) {
+  const std::uint32_t body = within[0].body;
+  if (within.size() == 1) {
+    exits[within[0].place] = exit_of(world, rays[within[0].ray], body, counts);
+    return;
+  }
+  RayPacket packet;
+  for (int lane = 0; lane < packet_lanes; ++lane)
+    packet.set(lane,
+               rays[within[std::min(static_cast<std::size_t>(lane), within.size() - 1)].ray].ray);
+  CastPacket casts;
+  cast_exit_packet(world.instances().at(body), packet, (LaneBits(1) << within.size()) - 1, casts);
+  for (std::size_t i = 0; i < within.size(); ++i) {
+    ++counts.casts;
+    exits[within[i].place] =
+        exit_by(world, rays[within[i].ray], body, casts.result(static_cast<int>(i)), counts);
+  }
+}
+
 }  // namespace
 
 bool Inside::holds(std::uint32_t body) const {
@@ -140,11 +207,25 @@ Boundary boundary_of(const WorldHit& hit) {
   return boundary;
 }
 
+double rounding_at(double half_extent, const Vec3<double>& point, double t) {
+  const double largest = std::max({point.cwiseAbs().maxCoeff(), t, half_extent});
+  return surface_offset * tolerance::epsilon<double> * largest;
+}
+
 double rounding_at(const World& world, std::uint32_t instance, const Vec3<double>& point,
                    double t) {
-  const double largest =
-      std::max({point.cwiseAbs().maxCoeff(), t, world.instances().half_extent(instance)});
-  return surface_offset * tolerance::epsilon<double> * largest;
+  return rounding_at(world.instances().half_extent(instance), point, t);
+}
+
+void HalfExtents::begin(const World& world) {
+  world_ = &world;
+  kept_.fill({});
+}
+
+double HalfExtents::of(std::uint32_t instance) {
+  Kept& kept = kept_[instance % kept_.size()];
+  if (kept.instance != instance) kept = {instance, world_->instances().half_extent(instance)};
+  return kept.half_extent;
 }
 
 double length_within(const World& world, const Ray<double>& ray, const WorldHit& hit) {
@@ -157,19 +238,38 @@ double length_within(const World& world, const Ray<double>& ray, const WorldHit&
 
 Boundary next_boundary(const World& world, const WorldRay& ray, const Inside& inside,
                        QueryCounts& counts) {
-  Boundary next;
-  next.t = ray.ray.t_max;
-  for (const std::uint32_t body : inside.bodies()) {
-    const Boundary exit = exit_of(world, ray, body, counts);
-    if (exit.is_lost) return exit;
-    if (exit.t < next.t) next = exit;
+  const auto exit_at = [&](std::size_t k) {
+    return exit_of(world, ray, inside.bodies()[k], counts);
+  };
+  const auto half_extent = [&](std::uint32_t body) { return world.instances().half_extent(body); };
+  return nearer_of(world, ray, inside, exit_at, half_extent, counts);
+}
+
+void next_boundaries(const World& world, std::span<const WorldRay> rays,
+                     std::span<const Inside* const> insides, std::span<Boundary> nexts,
+                     HalfExtents& half_extents, QueryCounts& counts) {
+  std::vector<RayWithin> all;
+  std::vector<std::size_t> firsts;
+  for (std::uint32_t i = 0; i < rays.size(); ++i) {
+    firsts.push_back(all.size());
+    for (const std::uint32_t body : insides[i]->bodies())
+      all.push_back({body, i, static_cast<std::uint32_t>(all.size())});
   }
-  WorldRay ahead = ray;
-  if (next.leaves)
-    ahead.ray.t_max = next.t + rounding_at(world, next.instance, ray.ray.at(next.t), next.t);
-  const WorldHit entered = closest_but(world, ahead, inside.bodies(), counts);
-  if (entered.found()) return boundary_of(entered);
-  return next;
+  std::vector<Boundary> exits(all.size());
+  std::sort(all.begin(), all.end(), [](const RayWithin& a, const RayWithin& b) {
+    return a.body != b.body ? a.body < b.body : a.place < b.place;
+  });
+  for (std::size_t from = 0, end; from < all.size(); from = end) {
+    const std::uint32_t body = all[from].body;
+    const std::size_t most = goes_together(world, body) ? packet_lanes : 1;
+    for (end = from + 1; end < all.size() && end < from + most && all[end].body == body;) ++end;
+    find_exits(world, rays, std::span(all).subspan(from, end - from), exits, counts);
+  }
+  const auto half_extent = [&](std::uint32_t body) { return half_extents.of(body); };
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const auto exit_at = [&](std::size_t k) { return exits[firsts[i] + k]; };
+    nexts[i] = nearer_of(world, rays[i], *insides[i], exit_at, half_extent, counts);
+  }
 }
 
 }  // namespace minkray

@@ -30,6 +30,23 @@ class Inside {
   std::size_t count_ = 0;
 };
 
+/// Largest half extents of a world's instances, which many rays in turn need: the last ones are
+/// kept.
+class HalfExtents {
+ public:
+  /// Forgets all, for a world that was changed, or for another one.
+  void begin(const World& world);
+  double of(std::uint32_t instance);
+
+ private:
+  struct Kept {
+    std::uint32_t instance = no_instance;
+    double half_extent = 0;
+  };
+  const World* world_ = nullptr;
+  std::array<Kept, 256> kept_;  ///< by the last bits of the instance
+};
+
 /// The next boundary along a ray.
 struct Boundary {
   std::uint32_t instance = no_instance;  ///< none: the ray is unbounded
@@ -47,6 +64,11 @@ struct Boundary {
 Boundary next_boundary(const World& world, const WorldRay& ray, const Inside& inside,
                        QueryCounts& counts);
 
+/// The same for several rays, with the bodies around each. Exits from one body are cast together.
+void next_boundaries(const World& world, std::span<const WorldRay> rays,
+                     std::span<const Inside* const> insides, std::span<Boundary> nexts,
+                     HalfExtents& half_extents, QueryCounts& counts);
+
 /// Length of a ray within the body that it has met, or begins in; 0 if it met none.
 double length_within(const World& world, const Ray<double>& ray, const WorldHit& hit);
 
@@ -56,5 +78,7 @@ Boundary boundary_of(const WorldHit& hit);
 /// Error bound of hit points, in lengths: a few hundred roundings of the largest number that went
 /// into them.
 double rounding_at(const World& world, std::uint32_t instance, const Vec3<double>& point, double t);
+/// Same, by the half extent of the instance.
+double rounding_at(double half_extent, const Vec3<double>& point, double t);
 
 }  // namespace minkray

@@ -106,7 +106,7 @@ void PathTransport::Wave::arrive(std::size_t i) {
   constexpr double least = std::numeric_limits<double>::epsilon();
   double& z = shading.w_out.z();
   z = at.leaves ? std::min(z, -least) : std::max(z, least);
-  points_[i].emplace(Point{position, rounding_at(of_.world_, at.instance, position, at.t),
+  points_[i].emplace(Point{position, rounding_at(half_extents_.of(at.instance), position, at.t),
                            at.normal, smooth.lift, smooth.is_curved ? smooth.normal : at.normal,
                            frame, shading, material.bsdf.get(), at.instance,
                            at.leaves ? beyond : path.inside, at.leaves ? path.inside : beyond,

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/paths/path_transport.h"
 
+#include <cmath>
+#include <utility>
+
 #include "renderer/paths/path_wave.h"
 
 namespace minkray {
 namespace {
 
-/// Paths are not ended by chance before they were scattered so often.
-constexpr int sure_depth = 4;
+/// Paths are not ended by chance before they were scattered so often; what is seen through glass or
+/// in mirrors, a little later.
+constexpr int sure_depth = 3, sure_sharp_depth = 4;
 
 /// A body is one sheet if it is so thin, over its largest extent.
 constexpr double sheet_thickness = 1e-6;
@@ -20,14 +24,32 @@ bool is_flat(const World& world, std::uint32_t instance) {
 
 }  // namespace
 
-PathTransport::Wave::Wave(const PathTransport& of, std::span<TracedRay> rays, RayCounts& counts)
+PathTransport::Wave::Wave(const PathTransport& of, std::span<TracedRay> rays, RayCounts& counts,
+                          WaveMemory& memory)
     : of_(of),
       rays_(rays),
       counts_(counts),
-      paths_(rays.size()),
-      going_on_(rays.size()),
-      boundaries_(rays.size()),
-      points_(rays.size()) {
+      paths_(memory.paths),
+      going_on_(memory.going_on),
+      boundaries_(memory.boundaries),
+      points_(memory.points),
+      scattering_(memory.scattering),
+      asked_(memory.asked),
+      whose_(memory.whose),
+      asked_within_(memory.asked_within),
+      whose_within_(memory.whose_within),
+      insides_(memory.insides),
+      nexts_(memory.nexts),
+      hits_(memory.hits),
+      blocked_(memory.blocked),
+      shadows_(memory.shadows),
+      half_extents_(memory.half_extents) {
+  half_extents_.begin(of.world_);
+  paths_.clear();
+  paths_.resize(rays.size());
+  going_on_.resize(rays.size());
+  boundaries_.resize(rays.size());
+  points_.resize(rays.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
     Path& path = paths_[i];
     path.ray = rays[i].ray;
@@ -63,6 +85,9 @@ void PathTransport::Wave::run() {
 void PathTransport::Wave::find_boundaries() {
   asked_.clear();
   whose_.clear();
+  asked_within_.clear();
+  whose_within_.clear();
+  insides_.clear();
   for (const std::size_t i : going_on_) {
     const Path& path = paths_[i];
     const WorldRay ray{path.ray, path.left, path.time, kinds_of(kind(path))};
@@ -70,9 +95,14 @@ void PathTransport::Wave::find_boundaries() {
       asked_.push_back(ray);
       whose_.push_back(i);
     } else {
-      boundaries_[i] = next_boundary(of_.world_, ray, path.inside, counts_.work);
+      asked_within_.push_back(ray);
+      whose_within_.push_back(i);
+      insides_.push_back(&path.inside);
     }
   }
+  nexts_.resize(asked_within_.size());
+  next_boundaries(of_.world_, asked_within_, insides_, nexts_, half_extents_, counts_.work);
+  for (std::size_t k = 0; k < whose_within_.size(); ++k) boundaries_[whose_within_[k]] = nexts_[k];
   const auto kind_of = [&](std::size_t k) { return kind(paths_[whose_[k]]); };
   of_.casts_.find_hits(kind_of, asked_, hits_, counts_.work);
   for (std::size_t k = 0; k < whose_.size(); ++k) boundaries_[whose_[k]] = boundary_of(hits_[k]);
@@ -106,8 +136,9 @@ void PathTransport::Wave::scatter(Path& path, const Point& point) {
   path.pdf = sample->pdf;
   ++path.depth;
   ++(sample->is_sharp ? counts_.mirrored : counts_.scattered);
-  if (path.depth < sure_depth) return;
-  const double chance = std::min(path.throughput.maxCoeff() * path.gathered, 1.0);
+  if (path.depth < (path.only_sharp ? sure_sharp_depth : sure_depth)) return;
+  // The root: an end spares the rest of the path, but makes what goes on brighter and rarer.
+  const double chance = std::sqrt(std::min(path.throughput.maxCoeff() * path.gathered, 1.0));
   if (chance >= 1) return;
   path.goes_on = path.sampler.next()[0] < chance;
   path.throughput /= chance;
@@ -137,7 +168,10 @@ PathTransport::PathTransport(const Scene& scene, const World& world,
 
 void PathTransport::trace(std::span<TracedRay> rays, RayCounts& counts) const {
   counts.camera += rays.size();
-  Wave(*this, rays, counts).run();
+  thread_local WaveMemory kept;
+  WaveMemory memory = std::exchange(kept, {});
+  Wave(*this, rays, counts, memory).run();
+  kept = std::move(memory);
 }
 
 }  // namespace minkray

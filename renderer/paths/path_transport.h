@@ -27,6 +27,7 @@ class PathTransport final : public LightTransport {
   struct Point;
   struct Arriving;
   struct ShadowRays;
+  struct WaveMemory;
   class Wave;
 
   static Emitters::RadianceOfPart radiance_of_part(const SceneSurfaces& surfaces);

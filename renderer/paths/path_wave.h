@@ -13,9 +13,23 @@ inline double share(double mine, double other) {
   return mine / (mine + other);
 }
 
+/// Memory of a wave, which the next one uses again: new pages cost as much as the paths.
+struct PathTransport::WaveMemory {
+  std::vector<Path> paths;
+  std::vector<std::size_t> going_on, scattering, whose, whose_within;
+  std::vector<Boundary> boundaries, nexts;
+  std::vector<std::optional<Point>> points;
+  std::vector<WorldRay> asked, asked_within;
+  std::vector<const Inside*> insides;
+  std::vector<WorldHit> hits;
+  std::vector<std::uint8_t> blocked;
+  ShadowRays shadows;
+  HalfExtents half_extents;
+};
+
 class PathTransport::Wave {
  public:
-  Wave(const PathTransport& of, std::span<TracedRay> rays, RayCounts& counts);
+  Wave(const PathTransport& of, std::span<TracedRay> rays, RayCounts& counts, WaveMemory& memory);
   void run();
 
  private:
@@ -66,16 +80,21 @@ class PathTransport::Wave {
   std::span<TracedRay> rays_;
   RayCounts& counts_;
   const Medium air_;
-  std::vector<Path> paths_;
-  std::vector<std::size_t> going_on_;  ///< the paths that have not ended
-  std::vector<Boundary> boundaries_;   ///< by path: where it has come to
-  std::vector<std::optional<Point>> points_;
-  std::vector<std::size_t> scattering_;  ///< the paths that are at a point
-  std::vector<WorldRay> asked_;
-  std::vector<std::size_t> whose_;
-  std::vector<WorldHit> hits_;
-  std::vector<std::uint8_t> blocked_;
-  ShadowRays shadows_;
+  std::vector<Path>& paths_;
+  std::vector<std::size_t>& going_on_;  ///< the paths that have not ended
+  std::vector<Boundary>& boundaries_;   ///< by path: where it has come to
+  std::vector<std::optional<Point>>& points_;
+  std::vector<std::size_t>& scattering_;  ///< the paths that are at a point
+  std::vector<WorldRay>& asked_;
+  std::vector<std::size_t>& whose_;
+  std::vector<WorldRay>& asked_within_;  ///< rays within clear bodies
+  std::vector<std::size_t>& whose_within_;
+  std::vector<const Inside*>& insides_;
+  std::vector<Boundary>& nexts_;
+  std::vector<WorldHit>& hits_;
+  std::vector<std::uint8_t>& blocked_;
+  ShadowRays& shadows_;
+  HalfExtents& half_extents_;
 };
 
 }  // namespace minkray

@@ -103,7 +103,7 @@ std::vector<unsigned char> las_of(const ScanOutput& output) {
       put(points, static_cast<std::uint8_t>(channel < 256 ? channel : 0));
       put(points, std::int16_t{0});
       put(points, static_cast<std::uint16_t>(echo.object < 65535 ? echo.object + 1 : 0));
-      put(points, output.start + output.rays.rays[ray].time);
+      put(points, output.time_of(ray * several));
     }
   }
   FileBytes bytes;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lidars by name: the angles of their channels. The list of them is in lidar_models.cpp.
+// Lidars by name: angles and firing times of their channels. The list of them is in
+// lidar_models.cpp.
 #pragma once
 
 #include <span>
@@ -10,6 +11,7 @@ namespace minkray {
 /// Angles in degrees: up from the horizon, and left of the sensor's forward direction.
 struct LidarChannel {
   double elevation, azimuth;
+  double delay = 0;  ///< seconds from the beginning of a step to the firing
 };
 
 struct LidarModel {

@@ -39,22 +39,33 @@ SensorRays rays_of_csv(const std::string& file, double) {
   return rays;
 }
 
+/// Limits of the numbers of a list, and the name of their kind and unit.
+struct NumberLimits {
+  int least, most;
+  const char* kind;
+  const char* unit;
+};
+constexpr NumberLimits elevation_limits{-90, 90, "angles", "degrees"},
+    azimuth_limits{-360, 360, "angles", "degrees"}, delay_limits{0, 1, "times", "seconds"};
+
 /// Reads a list of at least one number, each within the limits.
-std::vector<double> read_angles(const Json& json, const JsonPath& path, Mistakes& mistakes,
-                                double most) {
-  std::vector<double> angles;
+std::vector<double> read_list(const Json& json, const JsonPath& path, Mistakes& mistakes,
+                              const NumberLimits& limits) {
+  std::vector<double> numbers;
   if (!json.is_array() || json.empty()) {
-    mistakes.add(path, "must be a list of angles in degrees (" + found(json) + ")");
-    return angles;
+    mistakes.add(path, std::string("must be a list of ") + limits.kind + " in " + limits.unit +
+                           " (" + found(json) + ")");
+    return numbers;
   }
   for (std::size_t i = 0; i < json.size(); ++i) {
-    const auto angle = read_number(json[i], path / i, mistakes);
-    if (angle && std::abs(*angle) > most)
-      mistakes.add(path / i, "must be from -" + std::to_string(int(most)) + " to " +
-                                 std::to_string(int(most)) + " degrees (" + found(json[i]) + ")");
-    angles.push_back(angle.value_or(0));
+    const auto number = read_number(json[i], path / i, mistakes);
+    if (number && !(*number >= limits.least && *number <= limits.most))
+      mistakes.add(path / i, "must be from " + std::to_string(limits.least) + " to " +
+                                 std::to_string(limits.most) + " " + limits.unit + " (" +
+                                 found(json[i]) + ")");
+    numbers.push_back(number.value_or(0));
   }
-  return angles;
+  return numbers;
 }
 
 /// Returns a key of Ouster's metadata, which is at the top of old files and in a part of new ones.
@@ -82,38 +93,45 @@ SensorRays rays_of_json(const std::string& file, double seconds) {
   const auto text = read_text_file(file, mistakes);
   const auto json = text ? parse_json(*text, mistakes) : std::nullopt;
   throw_if_any(mistakes);
-  std::vector<double> elevations, azimuths;
+  std::vector<double> elevations, azimuths, delays;
   int steps = 1;
   const JsonPath root;
   if (const Json* up = of_ouster(*json, "beam_intrinsics", "beam_altitude_angles")) {
-    elevations = read_angles(*up, root / "beam_altitude_angles", mistakes, 90);
+    elevations = read_list(*up, root / "beam_altitude_angles", mistakes, elevation_limits);
     if (const Json* side = of_ouster(*json, "beam_intrinsics", "beam_azimuth_angles"))
-      for (const double angle : read_angles(*side, root / "beam_azimuth_angles", mistakes, 360))
+      for (const double angle :
+           read_list(*side, root / "beam_azimuth_angles", mistakes, azimuth_limits))
         azimuths.push_back(-angle);
     steps = ouster_steps(*json, mistakes);
   } else {
     ObjectReader object(*json, root, mistakes);
     if (const Json* written = object.require("elevations", "a list of angles in degrees"))
-      elevations = read_angles(*written, object.path("elevations"), mistakes, 90);
+      elevations = read_list(*written, object.path("elevations"), mistakes, elevation_limits);
     if (const Json* written = object.find("azimuths"))
-      azimuths = read_angles(*written, object.path("azimuths"), mistakes, 360);
+      azimuths = read_list(*written, object.path("azimuths"), mistakes, azimuth_limits);
+    if (const Json* written = object.find("firing_times"))
+      delays = read_list(*written, object.path("firing_times"), mistakes, delay_limits);
     if (const Json* written = object.require("steps", "the number of steps of a turn"))
       steps =
           read_integer(*written, object.path("steps"), mistakes, 1, most_turn_steps).value_or(1);
     object.finish();
   }
   throw_if_any(mistakes);
-  if (azimuths.empty()) azimuths.resize(elevations.size());
-  if (azimuths.size() != elevations.size())
-    mistakes.add("must have as many azimuths as elevations (got " +
-                 std::to_string(azimuths.size()) + " and " + std::to_string(elevations.size()) +
-                 ")");
+  const auto match = [&](std::vector<double>& numbers, const char* name) {
+    if (numbers.empty()) numbers.resize(elevations.size());
+    if (numbers.size() != elevations.size())
+      mistakes.add(std::string("must have as many ") + name + " as elevations (got " +
+                   std::to_string(numbers.size()) + " and " + std::to_string(elevations.size()) +
+                   ")");
+  };
+  match(azimuths, "azimuths");
+  match(delays, "firing_times");
   if (double(elevations.size()) * steps > double(most_sensor_rays))
     mistakes.add("must be at most " + std::to_string(most_sensor_rays) + " rays");
   throw_if_any(mistakes);
   std::vector<LidarChannel> channels;
   for (std::size_t i = 0; i < elevations.size(); ++i)
-    channels.push_back({elevations[i], azimuths[i]});
+    channels.push_back({elevations[i], azimuths[i], delays[i]});
   return turning_rays(channels, steps, seconds);
 }
 

@@ -13,8 +13,9 @@ namespace minkray {
 
 /// .csv: columns time (s), azimuth and zenith or elevation (degrees), one ray per row, as Livox
 /// publishes its patterns.
-/// .json: "elevations" and optional "azimuths" of the channels (degrees) and "steps" per turn; or
-/// Ouster's metadata, with "beam_altitude_angles" and "beam_azimuth_angles" (clockwise).
+/// .json: "elevations" and optional "azimuths" of the channels (degrees), "firing_times" (seconds
+/// from the beginning of a step) and "steps" per turn; or Ouster's metadata, with
+/// "beam_altitude_angles" and "beam_azimuth_angles" (clockwise), all fired at once.
 /// .mat3x4f: RobotecGPULidar's patterns, rows of 12 little-endian floats: three rows of a pose,
 /// whose z axis is the ray's direction and whose last column is the ray's origin.
 struct PatternFormat {

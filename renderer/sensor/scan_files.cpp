@@ -30,8 +30,8 @@ using Bytes = std::vector<unsigned char>;
 constexpr const char* record_fields =
     "[('t', '<f8'), ('distance', '<f8'), ('point', '<f8', (3,)), ('normal', '<f8', (3,)), "
     "('object', '<i4'), ('t_lo', '<f8'), ('t_hi', '<f8'), ('status', '|u1'), "
-    "('incidence', '<f8'), ('intensity', '<f8')]";
-constexpr std::size_t record_bytes = 8 + 8 + 24 + 24 + 4 + 8 + 8 + 1 + 8 + 8;
+    "('incidence', '<f8'), ('intensity', '<f8'), ('time', '<f8')]";
+constexpr std::size_t record_bytes = 8 + 8 + 24 + 24 + 4 + 8 + 8 + 1 + 8 + 8 + 8;
 
 template <class Number>
 unsigned char* put_at(unsigned char* at, const Number& number) {
@@ -55,6 +55,7 @@ Bytes npy_of(const ScanOutput& output) {
       for (const double x : echo.normal) at = put_at(at, x);
       at = put_at(put_at(put_at(put_at(at, echo.object), echo.t_lo), echo.t_hi), echo.status);
       at = put_at(put_at(at, echo.incidence), echo.intensity);
+      at = put_at(at, output.time_of(i));
     }
   });
   return bytes;
@@ -67,7 +68,7 @@ Bytes bytes_of(const std::string& text) {
 Bytes csv_of(const ScanOutput& output) {
   std::string text =
       "ray,echo,t,distance,x,y,z,normal_x,normal_y,normal_z,object,t_lo,t_hi,status,"
-      "incidence,intensity\n";
+      "incidence,intensity,time\n";
   const auto add = [&](double number) {
     char digits[40];
     const auto [end, error] = std::to_chars(digits, digits + sizeof digits, number);
@@ -89,6 +90,7 @@ Bytes csv_of(const ScanOutput& output) {
     text += std::to_string(echo.status) + ',';
     add(echo.incidence);
     add(echo.intensity);
+    add(output.time_of(i));
     text.back() = '\n';
   }
   return bytes_of(text);

@@ -25,6 +25,10 @@ struct ScanOutput {
   int channel_of(std::size_t ray) const {
     return rays.width > 0 ? static_cast<int>(ray / static_cast<std::size_t>(rays.width)) : 0;
   }
+  /// Seconds at which the echo's ray was cast.
+  double time_of(std::size_t echo) const {
+    return start + rays.rays[echo / static_cast<std::size_t>(returns)].time;
+  }
 };
 
 struct ScanFormat {

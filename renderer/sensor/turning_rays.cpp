@@ -2,6 +2,7 @@
 #include "renderer/sensor/turning_rays.h"
 
 #include <array>
+#include <cmath>
 
 #include "renderer/sensor/ray_directions.h"
 
@@ -14,7 +15,10 @@ SensorRays turning_rays(std::span<const LidarChannel> channels, int steps, doubl
   rays.width = steps;
   rays.rays.reserve(channels.size() * static_cast<std::size_t>(steps));
   const double turn = range ? std::abs(range->to - range->from) / 360 : 1;
+  const double turns_left = range && range->to > range->from ? 1 : -1;
   for (const LidarChannel& channel : channels) {
+    const double turns = channel.delay / seconds;
+    const double turned = std::isfinite(turns) ? turns_left * 360 * turns : 0;
     for (int step = 0; step < steps; ++step) {
       double share = double(step) / steps;
       double azimuth = std::numbers::pi - 2 * std::numbers::pi * (step + 0.5) / steps;
@@ -24,8 +28,8 @@ SensorRays turning_rays(std::span<const LidarChannel> channels, int steps, doubl
       }
       rays.rays.push_back(
           {{{0, 0, 0},
-            direction_of(azimuth + radians(channel.azimuth), radians(channel.elevation))},
-           share * turn * seconds});
+            direction_of(azimuth + radians(channel.azimuth + turned), radians(channel.elevation))},
+           share * turn * seconds + channel.delay});
     }
   }
   return rays;

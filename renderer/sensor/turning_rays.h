@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rays of spinning lidars: channels above each other, all cast at once at each step of a turn.
+// Rays of spinning lidars: channels above each other, each cast at its own time in a step of a
+// turn.
 #pragma once
 
 #include <span>
@@ -18,7 +19,7 @@ struct AzimuthRange {
 
 /// Rays channel by channel, an image of all around. A whole turn goes clockwise from behind, so
 /// that the image's middle is ahead and its right is on the right. A range has a ray at both of its
-/// ends and takes its share of the seconds of a turn.
+/// ends and takes its share of the seconds of a turn. The sensor turns on during a channel's delay.
 SensorRays turning_rays(std::span<const LidarChannel> channels, int steps, double seconds,
                         const AzimuthRange* range = nullptr);
 

@@ -103,6 +103,25 @@ void CallProgram::cast() {
                      "a ray that is blocked and meets nothing, or the other way round: ray " +
                          std::to_string(i));
   }
+  // All hits: sorted, and one where the first is, unless it begins inside.
+  struct Taken {
+    const Answers<std::uint8_t>* status;
+    std::size_t calls = 0, wrong = 0;
+  } taken{&status};
+  const auto take = [](void* user, const minkray_all_hits* found) {
+    auto& to = *static_cast<Taken*>(user);
+    ++to.calls;
+    for (std::size_t i = 0; i < found->rays; ++i) {
+      const std::size_t begin = found->offsets[i], end = found->offsets[i + 1];
+      to.wrong += (*to.status)[i] == MINKRAY_HIT && begin == end ? 1 : 0;
+      for (std::size_t k = begin + 1; k < end; ++k)
+        to.wrong += found->hits[k].t < found->hits[k - 1].t ? 1 : 0;
+    }
+    return 0;
+  };
+  code = minkray_scene_all_hits(of.value, &arrays, count, take, &taken, how.value);
+  if (!promises_.call("minkray_scene_all_hits", code, Sure::right, taken.calls == 0)) return;
+  promises_.expect(taken.calls == 1 && taken.wrong == 0, "other hits among all than first ones");
 }
 
 void CallProgram::cast_at_one() {

@@ -6,6 +6,7 @@
 
 namespace minkray_python {
 
+void bind_all_hits(py::module_& module);
 void bind_shapes(py::module_& module);
 void bind_pairs(py::module_& module);
 void bind_scene_pairs(py::module_& module);

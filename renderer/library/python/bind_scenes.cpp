@@ -8,32 +8,12 @@
 
 #include "renderer/library/python/bind.h"
 #include "renderer/library/python/interruptible.h"
+#include "renderer/library/python/ray_rows.h"
 
 namespace minkray_python {
 namespace {
 
 using minkray::Scene;
-
-/// Rays (N, 6) and their ends: a number, or (N,).
-struct RayRows {
-  Rows rows;
-  Doubles t_max;
-  minkray_ray_arrays arrays = {};
-
-  RayRows(const py::object& rays, const py::object& ends) : rows(rows_of(rays, 6, "rays")) {
-    arrays = {
-        sizeof arrays, rows.first, rows.stride, rows.first ? rows.first + 3 : nullptr, rows.stride,
-        nullptr,       0};
-    if (ends.is_none()) return;
-    t_max = Doubles::ensure(ends);
-    if (!t_max) PyErr_Clear();
-    const bool is_one = t_max && t_max.ndim() == 0;
-    if (!t_max || (!is_one && static_cast<std::size_t>(t_max.size()) != rows.count))
-      throw py::value_error("t_max: must be a number, or one per ray");
-    arrays.t_max = t_max.data();
-    arrays.t_max_stride = is_one ? 0 : static_cast<std::ptrdiff_t>(sizeof(double));
-  }
-};
 
 py::dict cast(const Scene& scene, const py::object& rays, const py::object& t_max, int threads,
               bool jac, bool jac_error) {
@@ -111,21 +91,7 @@ py::array_t<std::uint8_t> occluded(const Scene& scene, const py::object& rays,
 py::dict certify(const Scene& scene, const py::object& rays, const py::object& t_max, int threads) {
   const RayRows source(rays, t_max);
   const std::size_t count = source.rows.count;
-  std::vector<minkray_ray> plain(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto* row =
-        reinterpret_cast<const double*>(reinterpret_cast<const char*>(source.rows.first) +
-                                        source.rows.stride * static_cast<py::ssize_t>(i));
-    for (int k = 0; k < 3; ++k) {
-      plain[i].origin[k] = row[k];
-      plain[i].direction[k] = row[3 + k];
-    }
-    plain[i].t_max = !source.arrays.t_max              ? std::numeric_limits<double>::infinity()
-                     : source.arrays.t_max_stride == 0 ? *source.arrays.t_max
-                                                       : source.arrays.t_max[i];
-    // In a struct a zero is no end. Nothing lies between it and the next number.
-    if (plain[i].t_max == 0) plain[i].t_max = std::numeric_limits<double>::denorm_min();
-  }
+  const std::vector<minkray_ray> plain = source.plain();
   std::vector<minkray_hit> hits(count);
   std::vector<minkray_proof> proofs(count);
   Interruptible(threads).run([&](const minkray_options* options) {

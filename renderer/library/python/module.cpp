@@ -22,5 +22,6 @@ PYBIND11_MODULE(_minkray, module) {
   bind_pairs(module);
   bind_scenes(module);
   bind_scene_pairs(module);
+  bind_all_hits(module);
   bind_pictures(module);
 }

@@ -76,7 +76,8 @@ std::vector<RayPacket> packets_at(const Shape& shape, int count) {
   return packets;
 }
 
-void check_all() {
+/// `leaves`: compares exits.
+void check_all(bool leaves) {
   int hits = 0, rays = 0;
   for (const SampleShape& sample : packed_shapes()) {
     const Shape shape = sample.shape;
@@ -84,9 +85,13 @@ void check_all() {
     for (const RayPacket& packet : packets_at(shape, 1000 / packet_lanes)) {
       for (const InstructionSet set : instruction_sets()) {
         CastPacket answers;
-        cast_packet(prepared, packet, all_lanes, answers, set);
+        if (leaves)
+          cast_exit_packet(prepared, packet, all_lanes, answers, set);
+        else
+          cast_packet(prepared, packet, all_lanes, answers, set);
         for (int lane = 0; lane < packet_lanes; ++lane) {
-          const CastResult<double> alone = cast_ray(prepared, packet.ray(lane));
+          const CastResult<double> alone =
+              leaves ? cast_exit(prepared, packet.ray(lane)) : cast_ray(prepared, packet.ray(lane));
           ASSERT_TRUE(same(alone, answers.result(lane)))
               << sample.name << ", " << packet_lanes << " lanes, set " << int(set) << ", origin "
               << packet.ray(lane).origin.transpose() << ", direction "
@@ -102,7 +107,11 @@ void check_all() {
 }
 
 TEST(PacketCast, answers_as_single_casts_do) {
-  check_all();
+  check_all(false);
+}
+
+TEST(PacketCast, exits_are_those_of_single_casts) {
+  check_all(true);
 }
 
 TEST(PacketCast, lanes_that_are_not_asked_for_change_nothing) {

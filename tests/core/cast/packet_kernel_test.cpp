@@ -23,9 +23,9 @@ std::vector<Shape> packet_shapes() {
 void ask(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes, InstructionSet set,
          CastPacket& answers) {
   if (set == InstructionSet::avx2)
-    packet_kernel_avx2(shape, rays, lanes, answers);
+    packet_kernel_avx2(shape, rays, lanes, false, answers);
   else
-    packet_kernel_sse2(shape, rays, lanes, answers);
+    packet_kernel_sse2(shape, rays, lanes, false, answers);
 }
 
 /// Distance of the plane between the ray's lane and the shape.

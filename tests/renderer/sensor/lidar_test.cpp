@@ -39,11 +39,11 @@ TEST(Lidars, have_the_channels_of_their_data_sheets) {
   const struct {
     const char* name;
     int channels, steps;
-    double highest, lowest;
-  } sheets[] = {{"VLP-16", 16, 1800, 15, -15},
-                {"vlp32c", 32, 1800, 15, -25},
-                {"OS1_64", 64, 1024, 21.02, -21.41},
-                {"hdl-64e", 64, 2083, 2.02, -24.71}};
+    double highest, lowest, last_delay;
+  } sheets[] = {{"VLP-16", 16, 1800, 15, -15, 0},
+                {"vlp32c", 32, 1800, 15, -25, 0},
+                {"OS1_64", 64, 1024, 21.02, -21.41, 0},
+                {"hdl-64e", 64, 2083, 2.02, -24.71, 8.46e-6}};
   for (const auto& sheet : sheets) {
     const SensorRays rays = rays_of_pattern(sheet.name, 0.1);
     EXPECT_EQ(rays.height, sheet.channels) << sheet.name;
@@ -51,13 +51,13 @@ TEST(Lidars, have_the_channels_of_their_data_sheets) {
     ASSERT_EQ(rays.rays.size(), std::size_t(sheet.channels * sheet.steps));
     EXPECT_NEAR(elevation(rays.rays.front()), sheet.highest, 1e-9);
     EXPECT_NEAR(elevation(rays.rays.back()), sheet.lowest, 1e-9);
-    EXPECT_NEAR(rays.rays.back().time, 0.1 * (1 - 1.0 / sheet.steps), 1e-15);
+    EXPECT_NEAR(rays.rays.back().time, 0.1 * (1 - 1.0 / sheet.steps) + sheet.last_delay, 1e-15);
   }
   // Channels of one step point to different sides: the VLP-32C's by 1.4 and 4.2 degrees.
   const SensorRays rays = rays_of_pattern("VLP-32C:4", 0.1);
   std::multiset<long> offsets;
   for (std::size_t i = 0; i < rays.rays.size(); i += 4)
-    offsets.insert(std::lround(10 * (azimuth(rays.rays[i]) - 135)));
+    offsets.insert(std::lround(10 * (azimuth(rays.rays[i]) - 135 + 3600 * rays.rays[i].time)));
   for (const long offset : {-42, -14, 14, 42})
     EXPECT_EQ(offsets.count(offset), std::labs(offset) == 14 ? 11u : 5u) << offset;
 }
@@ -144,6 +144,14 @@ TEST(Lidars, are_read_from_files) {
   ASSERT_EQ(own.rays.size(), 8u);
   EXPECT_NEAR(elevation(own.rays[0]), 10, 1e-12);
   EXPECT_NEAR(azimuth(own.rays[4]), 137, 1e-12);
+  // The second channel fires a hundredth of a turn after the first one.
+  const SensorRays timed = rays_of_pattern(
+      write("t.json", R"({"elevations": [10, -5], "firing_times": [0, 1e-3], "steps": 4})"), 0.1);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_NEAR(timed.rays[i].time, 0.025 * double(i), 1e-17);
+    EXPECT_NEAR(timed.rays[4 + i].time, 0.025 * double(i) + 1e-3, 1e-17);
+    EXPECT_NEAR(azimuth(timed.rays[4 + i]), 135 - 90 * double(i) - 3.6, 1e-11);
+  }
   // Ouster counts azimuths clockwise, in files old and new.
   const std::string beams = R"("beam_altitude_angles": [1], "beam_azimuth_angles": [3])";
   for (const std::string& text :
@@ -173,6 +181,12 @@ TEST(Lidars, are_read_from_files) {
             std::string::npos);
   EXPECT_NE(refused("a.json", R"({"elevations": [9], "azimuths": [1, 2], "steps": 1})")
                 .find("as many azimuths as elevations (got 2 and 1)"),
+            std::string::npos);
+  EXPECT_NE(refused("a.json", R"({"elevations": [9], "firing_times": [0, 0], "steps": 1})")
+                .find("as many firing_times as elevations (got 2 and 1)"),
+            std::string::npos);
+  EXPECT_NE(refused("a.json", R"({"elevations": [9], "firing_times": [-1], "steps": 1})")
+                .find("/firing_times/0: must be from 0 to 1 seconds"),
             std::string::npos);
   EXPECT_NE(refused("a.json", R"({"beam_altitude_angles": [1]})").find("/lidar_mode"),
             std::string::npos);

@@ -272,10 +272,12 @@ TEST(ScanFiles, hold_a_record_of_each_ray) {
     if (format.ending == ".npy") {
       const std::size_t begin = text.find('\n') + 1;
       EXPECT_EQ(begin % 64, 0u);
-      ASSERT_EQ(bytes.size() - begin, 101 * result.echoes.size());
-      double t = 0;
-      std::memcpy(&t, bytes.data() + begin + 101 * 17, sizeof t);
+      ASSERT_EQ(bytes.size() - begin, 109 * result.echoes.size());
+      double t = 0, time = 0;
+      std::memcpy(&t, bytes.data() + begin + 109 * 17, sizeof t);
+      std::memcpy(&time, bytes.data() + begin + 109 * 17 + 101, sizeof time);
       EXPECT_EQ(t, result.echoes[17].t);
+      EXPECT_EQ(time, 0.1 * 17 / 50);
     } else if (format.ending == ".pcd" || format.ending == ".ply") {
       EXPECT_NE(text.find(std::to_string(points)), text.npos);
       const std::string last = format.ending == ".pcd" ? "DATA binary\n" : "end_header\n";

@@ -14,7 +14,8 @@ are converted. Wrong arguments raise `minkray.Error`, a `ValueError`.
 """
 from . import _minkray
 from ._minkray import Error, Shape
-from .answers import EXHAUSTED, HIT, INSIDE, MISS, NO_OBJECT, Clearance, Hits, MotionStatus, Proofs, Status, Verdict
+from .answers import (EXHAUSTED, HIT, INSIDE, MISS, NO_OBJECT, AllHits, Clearance, Hits, MotionStatus, Proofs,
+                      Status, Verdict)
 from .robots import Robot
 from .scene import Scene
 from .rays import camera, lidar, pinhole

@@ -104,6 +104,39 @@ class Hits(_Arrays):
                 f"{counts[INSIDE]} inside, {counts[EXHAUSTED]} exhausted>")
 
 
+class AllHits:
+    """All points where rays enter or leave objects, as flat arrays: those of ray i are
+    ``offsets[i]`` to ``offsets[i + 1] - 1``, sorted by t.
+
+    Attributes
+    ----------
+    t : float64
+        Ray parameter, in lengths of the direction.
+    t_lo, t_hi : float64
+        Proven bounds of t.
+    point, normal : float64, three numbers each
+        In the world. Normals are outward; of a mesh, by the order of the triangle's vertices.
+    object : uint32
+        Number of the object.
+    part : int32
+        The triangle, if the object is a mesh; else -1.
+    leaves : bool
+        False where the ray enters the object, True where it leaves.
+    ray : int64
+        Number of the ray.
+    offsets : int64, one more than rays
+    status : uint8, in the shape of the rays
+        A `Status`: HIT, MISS, or EXHAUSTED (the solver did not converge for some object, whose hits may
+        be missing).
+    """
+
+    def __init__(self, fields):
+        self.__dict__.update(fields)
+
+    def __repr__(self):
+        return f"<minkray.AllHits: {len(self.t)} hits of {len(self.offsets) - 1} rays>"
+
+
 class Proofs(_Arrays):
     """Proofs of casts, in arrays of the rays' shape.
 

@@ -5,7 +5,7 @@ import json
 import numpy as np
 
 from . import _minkray
-from .answers import EXHAUSTED, HIT, Hits, Proofs
+from .answers import EXHAUSTED, HIT, AllHits, Hits, Proofs
 from .calls import Error, array_of, public, text_of, whole_number_of
 from .many_pairs import threads_of
 from .rays import pinhole
@@ -102,6 +102,70 @@ class RaysOfScene:
         if (blocked == EXHAUSTED).any():
             raise RuntimeError(f"the solver did not converge at ray {int(np.argmax(blocked == EXHAUSTED))}")
         return (blocked == HIT).reshape(shape)
+
+    @_public
+    def exit(self, object, rays, t_max=None, threads=0):
+        """Finds where rays leave one object for the last time.
+
+        Parameters
+        ----------
+        object : int
+            Its number; not a half-space, which is unbounded.
+        rays, t_max, threads
+            As for `cast_rays`.
+
+        Returns
+        -------
+        Hits
+            HIT at the greatest t with a point of the object, INSIDE where a ray ends in it at t_max, or
+            MISS. A ray may have left a mesh before, and entered it again. Of an open mesh, which has no
+            inside, the last triangle that is hit. Normals point out of the object, of a mesh along the
+            ray.
+
+        Examples
+        --------
+        >>> import minkray as mk
+        >>> scene = mk.Scene()
+        >>> ball = scene.add(mk.sphere(1))
+        >>> scene.exit(ball, [[-4, 0, 0, 2, 0, 0], [0, 0, 0, 2, 0, 0]]).t
+        array([2.5, 0.5])
+        """
+        rows, ends, shape = self._rows(rays, t_max)
+        found = _minkray.scene_exit(self._ready(), whole_number_of(object, "object"), rows, ends,
+                                    threads_of(threads))
+        return Hits(self._shaped(found, shape))
+
+    @_public
+    def all_hits(self, rays, t_max=None, threads=0):
+        """Finds all points where rays enter or leave objects.
+
+        Parameters
+        ----------
+        rays, t_max, threads
+            As for `cast_rays`.
+
+        Returns
+        -------
+        AllHits
+            An object that a ray begins in is only left, one that it ends in only entered. A closed mesh
+            without self-intersections is entered and left in turn, also where the ray passes exactly
+            through edges and vertices. A ray that only touches a mesh there enters and leaves it at the
+            same t, or does not hit it.
+
+        Examples
+        --------
+        >>> import minkray as mk
+        >>> scene = mk.Scene()
+        >>> ball = scene.add(mk.sphere(1))
+        >>> found = scene.all_hits([[-4, 0, 0, 2, 0, 0], [0, 0, 0, 2, 0, 0]])
+        >>> found.t, found.leaves, found.offsets
+        (array([1.5, 2.5, 0.5]), array([False,  True,  True]), array([0, 2, 3]))
+        """
+        rows, ends, shape = self._rows(rays, t_max)
+        found = _minkray.scene_all_hits(self._ready(), rows, ends, threads_of(threads))
+        found["ray"] = np.repeat(np.arange(len(rows)), np.diff(found["offsets"]))
+        found["status"] = found["status"].reshape(shape)
+        return AllHits(found)
 
     @_public
     def certify(self, rays, hits=None, t_max=None, threads=0):
