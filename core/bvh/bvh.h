@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A bounding volume hierarchy over boxes, independent of their contents.
+// A bounding volume hierarchy (BVH) over boxes, independent of what the boxes contain.
 #pragma once
 
 #include <cstdint>
@@ -10,13 +10,13 @@
 
 namespace minkray {
 
-/// Children of a node: the number of floats in an AVX2 register.
+/// Maximum number of children per node: the number of floats in an AVX2 register.
 inline constexpr int bvh_width = 8;
 
-/// Up to eight boxes, coordinate by coordinate, and the child in each box. Boxes are rounded
-/// outwards to float, also for rays in double, which causes at most a few more visits.
+/// A node: up to eight boxes, coordinate by coordinate, and the child in each box. Boxes are
+/// rounded outwards to float, also for rays in double; this costs at most a few more visits.
 struct alignas(32) BvhNode {
-  /// No child. The box is empty, and so are all following boxes.
+  /// Value of a child that does not exist. Its box and all following boxes are empty.
   static constexpr std::uint32_t none = ~std::uint32_t{0};
   /// If this bit of a child is set, the other bits are the index of a box that the hierarchy was
   /// built from. Otherwise the child is the index of a node.
@@ -42,14 +42,15 @@ struct alignas(32) BvhNode {
 };
 static_assert(sizeof(BvhNode) == 224);
 
-/// Node 0 is the root. Children follow their parents. Empty if there are no boxes.
+/// Node 0 is the root; each child has a larger index than its parent. Without boxes there are no
+/// nodes.
 struct Bvh {
   FirstTouchVector<BvhNode> nodes;
 
   std::size_t bytes() const { return nodes.capacity() * sizeof(BvhNode); }
 };
 
-/// No path from the root is longer than this, for any boxes.
+/// Upper bound of the length of any path from the root, for any boxes.
 inline constexpr int bvh_max_depth = 80;
 
 /// Preference of build quality or build speed (docs/decisions/many-rays.md).
@@ -61,11 +62,12 @@ enum class BvhBuild : unsigned char {
 /// Builds the hierarchy of at most 2^30 boxes. The result does not depend on the number of threads.
 /// The boxes must not be empty; they may be flat, equal, or infinite.
 Bvh build_bvh(std::span<const Bounds<float>> boxes, BvhBuild build = BvhBuild::quality);
-/// Frees the boxes as soon as possible.
+/// Same, but frees the boxes as soon as possible.
 Bvh build_bvh(FirstTouchVector<Bounds<float>>&& boxes, BvhBuild build = BvhBuild::quality);
 
-/// Refits the hierarchy to the boxes of the same objects after these moved. Rays find the same
-/// boxes as after a rebuild, but visit more nodes the further objects moved relative to each other.
+/// Refits the hierarchy to the new boxes of the same objects, without changing its structure. Rays
+/// find the same boxes as after a rebuild, but visit more nodes the further objects moved relative
+/// to each other.
 void refit(Bvh& bvh, std::span<const Bounds<float>> boxes);
 
 /// Expected numbers of nodes, and of boxes in leaves, that a random line visits if it meets the

@@ -6,11 +6,11 @@
 
 namespace minkray {
 
-/// Children with the leaf bit are indices of leaves.
+/// A hierarchy in which a child with the leaf bit is the index of a leaf.
 struct BvhOfLeaves {
   Bvh bvh;
   FirstTouchVector<std::uint32_t> boxes;   ///< numbers of all boxes, leaf by leaf
-  FirstTouchVector<std::uint32_t> begins;  ///< begin of each leaf; then the end of the last leaf
+  FirstTouchVector<std::uint32_t> begins;  ///< start of each leaf; then the end of the last
 };
 
 /// Same as build_bvh with BvhBuild::quality, but with up to bvh_width boxes per leaf; most leaves

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Primitives of the builders: boxes in registers, with their index.
+// Primitives for the BVH builders: boxes in SIMD registers, with their index.
 #pragma once
 
 #include <bit>
@@ -54,7 +54,7 @@ struct Primitive {
 
   std::uint32_t index() const { return std::bit_cast<std::uint32_t>(box.lower.lane(3)); }
 
-  /// Twice the middle; 0, not NaN, for unbounded boxes.
+  /// Twice the centre; 0, not NaN, for unbounded boxes.
   Float4 middle() const {
     const Float4 sum = box.lower + box.upper;
     return select(abs(sum) <= Float4(std::numeric_limits<float>::max()), sum, Float4(0.0f));
@@ -62,7 +62,8 @@ struct Primitive {
 };
 static_assert(sizeof(Primitive) == 32);
 
-/// Two boxes of a range of primitives: one around the primitives, one around their doubled middles.
+/// Two boxes for a range of primitives: one around the primitives, one around their doubled
+/// centres.
 struct Extent {
   BuildBox box;
   BuildBox middles;

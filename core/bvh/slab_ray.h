@@ -18,8 +18,8 @@
 
 namespace minkray {
 
-/// Numbers of a ray for slab tests. The ray meets the near plane of each pair first, the far one
-/// last.
+/// A ray's numbers for slab tests. In each slab, the ray meets the near plane first and the far
+/// plane last.
 struct SlabNumbers {
   float origin_near[3], origin_far[3];
   float inverse_near[3], inverse_far[3];  ///< 1 / direction; infinite where a component is 0
@@ -32,17 +32,17 @@ struct SlabNumbers {
 /// and the product with the padding is rounded once more: 1 + 2 gamma + u < 1 + 4 epsilon.
 inline constexpr float slab_padding = 1 + 4 * std::numeric_limits<float>::epsilon();
 
-/// Hit parameters are rounded when they are computed and when they are converted to steps. Boxes
-/// that begin behind a hit by up to this factor are still visited.
+/// Factor by which a hit's parameter is enlarged as a limit, since it is rounded when it is
+/// computed and when it is converted to steps.
 inline constexpr float hit_padding = 1 + 32 * std::numeric_limits<float>::epsilon();
 
-/// Absolute error of subnormal numbers.
+/// Padding for the absolute error of subnormal numbers.
 inline constexpr float slab_tiny = std::numeric_limits<float>::min();
 
 namespace detail {
 
-/// Least float that is not below x. Avoids a branch, which would be unpredictable, since numbers
-/// are rounded down or up at random.
+/// Returns the least float that is not below x. Does not branch: a branch would be unpredictable,
+/// since numbers are rounded down or up at random.
 inline float float_above(double x) {
   const auto nearest = static_cast<float>(x);
   const std::int32_t step = static_cast<double>(nearest) < x ? 1 : 0;
@@ -95,7 +95,8 @@ struct SlabRay {
     numbers.t_max = limit(static_cast<double>(ray.t_max));
   }
 
-  /// Number of steps: boxes beyond it contain no hit with a parameter of at most t.
+  /// Converts t to steps, rounded up: boxes further away contain no hit with a parameter of at most
+  /// t.
   float limit(double t) const { return static_cast<float>(t * steps) * hit_padding + slab_tiny; }
 };
 

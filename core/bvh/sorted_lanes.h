@@ -11,7 +11,7 @@
 namespace minkray {
 namespace {
 
-/// For each set of lanes: the numbers of its lanes, in ascending order.
+/// Table: for each set of lanes, the numbers of the lanes in the set, in ascending order.
 struct LanesOfSet {
   std::uint64_t lanes[256] = {};
   constexpr LanesOfSet() {

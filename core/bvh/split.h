@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Splits a range of primitives in two. This is the only step in which the BVH builders differ.
+// Splits a range of primitives in two. BVH builders differ only in this step.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace minkray {
 
-/// Primitives [begin, end), found after `depth` splits.
+/// The primitives [begin, end), which are the result of `depth` splits.
 struct BuildRange {
   std::size_t begin = 0, end = 0;
   int depth = 0;

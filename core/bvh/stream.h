@@ -12,8 +12,8 @@ namespace minkray {
 /// Largest number of pairs per call of PairVisitor::visit.
 inline constexpr std::size_t most_pairs_at_once = 5 * std::size_t{bvh_width};
 
-/// Receives the pairs of rays and boxes that meet. Rounding may add pairs. `visit` is a plain
-/// function, so that kernels for different instruction sets share no code.
+/// Receives the pairs of a ray and a box that meet. Rounding may add pairs. `visit` is a function
+/// pointer rather than a template, so that kernels for different instruction sets share no code.
 struct PairVisitor {
   /// May lower numbers.t_max of any ray; a negative t_max ends the ray's traversal.
   void (*visit)(void* context, const std::uint32_t* rays, const std::uint32_t* boxes,
@@ -26,8 +26,8 @@ struct PairVisitor {
 std::uint64_t walk_stream(const Bvh& bvh, std::span<SlabRay> rays, const PairVisitor& visitor,
                           WalkSet set = best_walk_set());
 
-/// Computes SlabRay(ray) for rays in double, with the same bits; requires AVX2 and FMA. The rays
-/// are `stride` bytes apart.
+/// Computes SlabRay(ray) for many rays in double, bit-identical to the constructor. The rays are
+/// `stride` bytes apart. Requires AVX2 and FMA.
 void make_slabs_avx2(const char* rays, std::size_t stride, std::size_t count, SlabRay* slabs);
 
 /// Same as walk_stream; requires AVX2 and FMA.

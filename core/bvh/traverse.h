@@ -10,7 +10,7 @@
 
 namespace minkray {
 
-/// The instruction sets that traversals are compiled for. All find the same boxes.
+/// Instruction sets that traversals are compiled for. Traversals of all sets find the same boxes.
 enum class WalkSet : unsigned char { sse2, avx2 };
 WalkSet best_walk_set();
 
@@ -22,7 +22,7 @@ struct ExpectNothing {
   void operator()(std::uint32_t) const {}
 };
 
-/// Calls on_expected(box), as a plain function.
+/// Wraps on_expected(box) as a plain function, for BoxVisitor.
 template <class OnExpected>
 void expected(const void* context, std::uint32_t box) {
   (*static_cast<const OnExpected*>(context))(box);

@@ -8,8 +8,8 @@
 
 namespace minkray {
 
-/// Receives the boxes that are met. Plain functions, so that kernels for different instruction sets
-/// share no code.
+/// Receives the boxes that the ray meets. Uses function pointers, so that kernels for different
+/// instruction sets share no code.
 struct BoxVisitor {
   /// Returns true to end the traversal. May lower t_max of the ray.
   bool (*visit)(void* context, std::uint32_t box);
@@ -19,9 +19,9 @@ struct BoxVisitor {
   const void* expect_context;
 };
 
-/// Returns the number of visited nodes.
+/// Visits the boxes that the ray meets. Returns the number of visited nodes.
 std::uint32_t walk_sse2(const BvhNode* nodes, const SlabNumbers& ray, const BoxVisitor& visitor);
-/// Same; requires AVX2 and FMA.
+/// Same as walk_sse2; requires AVX2 and FMA.
 std::uint32_t walk_avx2(const BvhNode* nodes, const SlabNumbers& ray, const BoxVisitor& visitor);
 
 }  // namespace minkray

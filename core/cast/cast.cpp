@@ -15,7 +15,7 @@ bool asks_filter(const PreparedShape& shape, const CastOptions& options) {
          shape.definition().form().kind != FormKind::none;
 }
 
-/// A miss has no parameter.
+/// Converts a certain result of the filter. For a miss, all numbers of t are set to 0.
 CastResult<double> result_of(const Filtered<double>& answer) {
   CastResult<double> result;
   write_result(answer, result);
@@ -61,7 +61,7 @@ CastResult<double> cast_ray(const ShapeDefinition& definition, const Affine<doub
 CastResult<double> cast_exit(const PreparedShape& shape, const Ray<double>& ray,
                              const CastOptions& options) {
   CastResult<double> result = exit_by_any_stage(shape, ray, options);
-  // The ray may start inside, so no lower bound is claimed.
+  // The ray may start inside, so there is no lower bound.
   if (result.status == Status::hit) result.offset_lo = -std::numeric_limits<double>::infinity();
   return result;
 }

@@ -15,11 +15,12 @@ namespace minkray {
 
 struct CastOptions {
   SolverKind solver = SolverKind::automatic;
-  /// The paper's eps_tol, for the solvers that have one: a relative tolerance of squared lengths.
+  /// Relative tolerance of squared lengths, for solvers that use one (eps_tol in van den Bergen's
+  /// paper).
   double eps_tol = tolerance::gjk_squared<double>;
   int max_iterations = tolerance::gjk_max_iterations;
-  /// Initial normal in the ray's frame, for solvers that take one: for example, that of the
-  /// previous image's separating plane. Zero: none.
+  /// Initial normal in the ray's frame, for solvers that use one: for example the normal of the
+  /// plane that separated the same ray and shape in the previous frame. Zero: none.
   Vec3<double> v0 = Vec3<double>::Zero();
 };
 
@@ -27,19 +28,19 @@ using CastObserver = std::function<void(const CastIteration<double>&)>;
 
 /// Finds where the ray enters the shape: the least t in [0, t_max] at which origin + t * direction
 /// lies in it. If the origin is in the shape, the status is inside and t = 0. Numbers must be
-/// finite; t_max may be infinite. The observer, if any, receives every iteration, in the inner
-/// frame (see PreparedShape).
+/// finite; t_max may be infinite. The observer, if any, receives every iteration of the
+/// solver, in the shape's inner frame (see PreparedShape).
 CastResult<double> cast_ray(const PreparedShape& shape, const Ray<double>& ray,
                             const CastOptions& options = {}, const CastObserver& observer = {});
 
-/// Casts at a shape whose pose is used for this ray only: faster, as closed forms need no prepared
-/// shape.
+/// Casts at a shape whose pose is used for this ray only. Faster than preparing the shape first,
+/// since closed forms do not need that.
 CastResult<double> cast_ray(const ShapeDefinition& definition, const Affine<double>& pose,
                             const Ray<double>& ray);
 
-/// Finds where the ray leaves the shape: the greatest t in [0, t_max] whose point lies in the
-/// shape. Status hit: the ray leaves at t. Inside: the point at t = t_max is still in the shape.
-/// Miss: the ray misses the shape.
+/// Finds where the ray leaves the shape: the greatest t in [0, t_max] at which
+/// origin + t * direction lies in it. Status hit: the ray leaves the shape at t. Inside: the ray's
+/// end, at t_max, is in the shape. Miss: the ray misses the shape.
 CastResult<double> cast_exit(const PreparedShape& shape, const Ray<double>& ray,
                              const CastOptions& options = {});
 

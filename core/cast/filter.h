@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// First stage of a cast, and for nearly all rays the last: the shape's closed form in double, with
-// an error bound. If the bound leaves a decision "in doubt", the next stage runs (after Shewchuk,
-// "Adaptive Precision Floating-Point Arithmetic", 1997). Single rays and packets share this code,
-// so their results are bit-identical.
+// First stage of a cast, which decides nearly all rays: the shape's closed form in double, with an
+// error bound. If the bound is too wide to decide, the ray is "in doubt" and the next stage runs
+// (cf. Shewchuk, "Adaptive Precision Floating-Point Arithmetic", 1997). Single rays and packets
+// share this code, so their results are bit-identical.
 #pragma once
 
 #include "core/cast/form_line.h"
@@ -12,8 +12,8 @@
 
 namespace minkray {
 
-/// Lanes that neither hit, miss nor begin inside are in doubt. The other members are those of
-/// CastResult.
+/// Results of the filter, one ray per lane. A lane that is neither hit, inside nor miss is in
+/// doubt. The other members have the meaning that they have in CastResult.
 template <class W>
 struct Filtered {
   Mask<W> hit, inside, miss;
@@ -23,7 +23,7 @@ struct Filtered {
   Mask<W> is_certain() const { return hit | miss | inside; }
 };
 
-/// Writes the result of a single ray, which must be certain.
+/// Converts the result of a single ray, which must not be in doubt.
 [[gnu::always_inline]] inline void write_result(const Filtered<double>& answer,
                                                 CastResult<double>& result) {
   result.status = answer.hit ? Status::hit : answer.miss ? Status::miss : Status::inside;
@@ -35,14 +35,14 @@ struct Filtered {
   result.normal = answer.normal;
 }
 
-/// Normalises a form's normal, whose length is neither tiny nor huge, without rescaling.
+/// Normalises a normal whose length is neither tiny nor huge, so that its square cannot overflow.
 template <class W>
 [[gnu::always_inline]] inline Vec3<W> unit_of_ordinary(const Vec3<W>& v) {
   using std::sqrt;
   return v * (W(1) / sqrt(W(v.squaredNorm())));
 }
 
-/// Calls exact::enter out of line.
+/// Calls exact::enter, without inlining it.
 template <class W>
 [[gnu::noinline, gnu::cold]] exact::Entry<W> enter_rarely(const exact::Form& form,
                                                           const exact::Line<W>& line,
@@ -50,9 +50,9 @@ template <class W>
   return exact::enter<W>(form, line, open);
 }
 
-/// Finds where each ray enters the shape or, with `leaves`, where it leaves the shape. Only `open`
-/// lanes are computed. The shape is a PreparedShape, or its equivalent in lanes; its definition
-/// must have a form.
+/// Finds where each ray enters the shape or, with `leaves`, where it leaves the shape. Results are
+/// valid only in `open` lanes. `shape` is a PreparedShape, or a type with the same members in
+/// lanes; its definition must have a closed form.
 template <bool leaves, class W, class Placed>
 [[gnu::always_inline]] inline Filtered<W> filter(const Placed& shape, const Ray<W>& ray,
                                                  const Mask<W>& open) {
@@ -67,13 +67,13 @@ template <bool leaves, class W, class Placed>
   const W first = leaves ? W(-near.end) : near.begin, last = leaves ? W(-near.begin) : near.end;
   exact::Entry<W> entry = exact::enter<W>(form, line, open & near.bounded);
 
-  // A separating plane is parallel to the line, to rounding.
+  // The plane that proves a miss is parallel to the line, up to rounding.
   if (any(entry.miss)) {
     const W towards = entry.normal.dot(line.d) * line.inv;
     entry.normal = select<W>(entry.miss, Vec3<W>(entry.normal - line.d * towards), entry.normal);
   }
 
-  // The line's hit is the ray's if the ray begins before it and does not end before it.
+  // The line's hit is a hit of the ray if the ray starts before it and does not end before it.
   const W slack = near.slack;
   const W lo = entry.t - entry.e - slack, hi = entry.t + entry.e + slack;
   Filtered<W> answer;
@@ -107,7 +107,7 @@ template <bool leaves, class W, class Placed>
     normal = times<W, P>(map->transpose(), normal);
   }
   normal = unit_of_ordinary<W>(normal);
-  // If the line is so far away that its squared distance overflows, the normal has no length.
+  // If the line is so far away that its squared distance overflows, the normal is zero.
   if (any(answer.miss)) answer.miss &= W(normal.squaredNorm()) > W(0);
   if (any(answer.inside)) normal = select<W>(answer.inside, Vec3<W>::Zero(), normal);
   answer.normal = normal;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs a policy's stages in a loop: moves the ray near the shape first, and converts the result to
-// the original ray afterwards.
+// Runs the later stages of a cast in the order of the policy. First moves the ray's origin next to
+// the shape; afterwards converts the result to the original ray.
 #include "core/cast/later_stages.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ ShapeKinds kind_of(const ShapeDefinition& definition) {
                                                           : shape_kind::with_model;
 }
 
-/// True if the result is meant to be exact: coarser tolerances prove nothing.
+/// True if the caller wants exact results. With coarser tolerances, results are not proven.
 bool is_exact(const CastOptions& options) {
   return options.eps_tol <= tolerance::gjk_squared<double>;
 }
@@ -32,7 +32,8 @@ bool has_stage(const PreparedShape& shape, const CastOptions& options, Stage sta
   return std::find(stages.begin(), stages.end(), stage) != stages.end();
 }
 
-/// Runs stages until the judge accepts a result. The normal is in the inner frame.
+/// Runs the policy's stages until the judge accepts a result. The result's normal is in the inner
+/// frame.
 CastResult<double> ask_stages(const StageQuestion& question) {
   const Policy& policy = policy_of(question.options.solver, kind_of(question.shape.definition()));
   const bool exact = is_exact(question.options);
@@ -60,7 +61,8 @@ CastResult<double> ask_stages(const StageQuestion& question) {
   return judge.verdict();
 }
 
-/// Runs the stages for all rays within the ray's uncertainty.
+/// Runs the stages. If the ray's position in the inner frame is uncertain, the result holds for all
+/// rays within that uncertainty.
 CastResult<double> ask_stages_about_place(const StageQuestion& question) {
   const PreparedShape& shape = question.shape;
   if (question.near.loss <= tolerance::small_loss<double> * shape.inner_ball().radius)
@@ -74,10 +76,10 @@ CastResult<double> ask_stages_about_place(const StageQuestion& question) {
   });
 }
 
-/// Converts the result to the outer frame; exhausted if it exceeds the range of numbers.
+/// Converts the result to the outer frame. Returns `exhausted` if its numbers would overflow.
 CastResult<double> in_outer_frame(const PreparedShape& shape, CastResult<double> result) {
   result.normal = shape.normal_to_outer(result.normal);
-  // The direction is so short that the hit's t exceeds the range of double.
+  // The direction may be so short that the hit's t overflows.
   if (result.status == Status::hit && !std::isfinite(result.t())) result.status = Status::exhausted;
   const bool no_plane = result.status == Status::miss && result.normal.isZero(0);
   if (no_plane || !has_numbers<double>(result, result.normal)) {
@@ -87,9 +89,9 @@ CastResult<double> in_outer_frame(const PreparedShape& shape, CastResult<double>
   return result;
 }
 
-/// A point has no scale of its own: if the ray passes it so closely that squares of lengths
-/// underflow, but further away than its position's rounding, all lengths are multiplied by a power
-/// of two.
+/// Rescales a cast at a point, which has no size to scale lengths by. If the ray passes the point
+/// so closely that squares of lengths underflow, but further away than the rounding of the point's
+/// position, multiplies all lengths by a power of two.
 RayNearBall<double> with_squares(const PreparedShape& point, RayNearBall<double> near) {
   const double nearest = std::clamp(0.0, near.lambda_min, near.lambda_max);
   const Vec3<double> to_ray = near.s + nearest * near.r;
@@ -106,15 +108,15 @@ RayNearBall<double> with_squares(const PreparedShape& point, RayNearBall<double>
   return near;
 }
 
-/// Maps the ray to the inner frame without losing digits, however distant its origin.
+/// Maps the ray to the inner frame without losing digits, however far away its origin is.
 RayNearBall<double> near_inner(const PreparedShape& shape, const Ray<double>& ray) {
   RayNearBall<double> near = shape.to_inner(ray);
   if (near.is_from_afar(shape.inner_ball().radius)) near = shape.to_inner_from_afar(ray);
   return shape.inner_ball().radius > 0.0 ? near : with_squares(shape, near);
 }
 
-/// Returns `exhausted` if the ray has lost its digits even so, except for misses by more than the
-/// loss.
+/// Changes the result to `exhausted` if the ray's origin is so far away that rounding exceeds the
+/// shape's size, except for misses by more than the rounding.
 void end_far_cast(const PreparedShape& shape, const RayNearBall<double>& near,
                   CastResult<double>& result) {
   const double R = shape.inner_ball().radius,
@@ -129,7 +131,8 @@ void end_far_cast(const PreparedShape& shape, const RayNearBall<double>& near,
   result = none;
 }
 
-/// Adds an upper bound to a hit without one. Skips solvers chosen by name and coarse tolerances.
+/// Adds an upper bound of t to a hit that has none. Does nothing for a solver chosen by name or a
+/// coarse tolerance.
 void bound_hit(const PreparedShape& shape, const RayNearBall<double>& near,
                const CastOptions& options, CastResult<double>& result) {
   if (result.status == Status::hit && std::isinf(result.offset_hi) && is_exact(options) &&
@@ -137,7 +140,8 @@ void bound_hit(const PreparedShape& shape, const RayNearBall<double>& near,
     enclose_ray(shape, near, shape.normal_to_inner(result.normal), result);
 }
 
-/// A miss found by the shape's box, if the policy includes that stage.
+/// Runs Stage::bounds, if the policy includes it: returns a miss if the ray misses the shape's
+/// bounding box.
 std::optional<CastResult<double>> ask_bounds(const PreparedShape& shape, const Ray<double>& ray,
                                              const CastOptions& options) {
   if (!has_stage(shape, options, Stage::bounds) || shape.definition().has_large_loss()) return {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Table of the stages of a cast, in order, and of the results that have to be proven. A stage runs
-// if all stages before it failed to converge, or their results could not be proven.
+// Table of the stages of a cast: for each solver and kind of shape, the order of the stages and the
+// hits that must be proven. A stage runs only if no stage before it gave a result: each failed to
+// converge, or its result could not be proven.
 #pragma once
 
 #include <array>
@@ -16,36 +17,37 @@ enum class Stage : unsigned char {
   bounds,          ///< the bounding box: misses only
   model,           ///< the hull of the features that support calls have found (core/model)
   gjk,             ///< the GJK ray cast
-  support_portal,  ///< the model of a polytope, whatever the shape
+  support_portal,  ///< same as `model`, but treats every shape as a polytope
   finer,           ///< the GJK ray cast with more digits
   johnson,         ///< the GJK ray cast with Johnson's subalgorithm
   signed_volumes,  ///< the GJK ray cast with signed volumes
-  algorithm_1,     ///< the paper's slow reference
+  algorithm_1,     ///< Algorithm 1 of van den Bergen (2004), a slow reference
 };
 
-/// Hits that must be proven before they are returned, for shapes that may have corners.
+/// Set of hits that must be proven before they are returned, for shapes that may have corners.
 enum class Proof : unsigned char {
   none,
   steep_hits,  ///< hits whose plane is nearly parallel to the ray
   all,
 };
 
-/// Kinds of shapes, as bits; each shape has one kind.
+/// Set of kinds of shapes, one bit each. Each shape has exactly one kind.
 using ShapeKinds = unsigned;
 namespace shape_kind {
 inline constexpr ShapeKinds with_form = 1;   ///< has a closed form
 inline constexpr ShapeKinds with_model = 2;  ///< has no closed form, but an exact model
-inline constexpr ShapeKinds osculated = 4;   ///< the model only osculates the shape
+inline constexpr ShapeKinds osculated = 4;   ///< no closed form, only an approximate model
 inline constexpr ShapeKinds extreme = 8;     ///< extreme proportions (core/derived/proportions.h)
 inline constexpr ShapeKinds ordinary = with_form | with_model | osculated;
 inline constexpr ShapeKinds every = ordinary | extreme;
 }  // namespace shape_kind
 
+/// One line of the table.
 struct Policy {
   SolverKind solver;
   ShapeKinds shapes;
   Proof proof;
-  std::array<Stage, 6> stages;  ///< up to the first `none`
+  std::array<Stage, 6> stages;  ///< in order, up to the first `none`
 };
 
 namespace policy_rows {
@@ -76,7 +78,7 @@ inline constexpr std::array policies = {
 
 }  // namespace policy_rows
 
-/// Returns the table's row for a solver and a shape.
+/// Returns the table's line for a solver and the kind of a shape.
 constexpr const Policy& policy_of(SolverKind solver, ShapeKinds shape) {
   for (const Policy& policy : policy_rows::policies)
     if (policy.solver == solver && (policy.shapes & shape)) return policy;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A shape prepared for many casts: outer affine maps are removed, so that solvers work in the
-// innermost frame with few and accurate operations, and the bounding ball is computed once.
+// A shape with a pose, prepared for many casts. If the shape is a chain of affine maps of another
+// shape, solvers cast at that innermost shape, with the ray mapped into its frame: fewer and more
+// accurate operations. The bounding ball is computed once.
 #pragma once
 
 #include <memory>
@@ -11,13 +12,13 @@
 
 namespace minkray {
 
-/// A definition and a pose. "Inner" is the frame of the definition's inner shape, "outer" the frame
-/// of the rays.
+/// A definition and a pose. "Inner" refers to the innermost shape and its frame, "outer" to the
+/// frame in which rays are given.
 class PreparedShape {
  public:
   using Definition = ShapeDefinition;
 
-  /// `pose` maps the frame of `shape` to the outer one; it must be invertible.
+  /// `pose` maps the frame of `shape` to the outer frame; it must be invertible.
   explicit PreparedShape(Shape shape, const Affine<double>& pose = {})
       : PreparedShape(std::make_shared<const Definition>(std::move(shape)), pose) {}
 
@@ -37,9 +38,9 @@ class PreparedShape {
                       placement.is_rigid_identity ? nullptr : &placement.to_inner, placement.loss) {
   }
 
-  /// For one cast: refers to the definition, which must outlive the prepared shape, without
-  /// counting references. Large worlds make one per cast. `to_inner` is null for the identity;
-  /// `loss` is Placement's.
+  /// Cheap enough to call per cast, as worlds do: does not count references to the definition,
+  /// which must outlive the prepared shape. `to_inner` is null for the identity. `loss` is as in
+  /// Placement.
   PreparedShape(const Definition& definition, const TwoFoldVec3<double>& centre,
                 const Mat3<double>* to_inner, double loss)
       : definition_(std::shared_ptr<const Definition>(), &definition),
@@ -51,18 +52,19 @@ class PreparedShape {
 
   const Definition& definition() const { return *definition_; }
   const std::shared_ptr<const Definition>& shared_definition() const { return definition_; }
-  /// Centre of the ball in the outer frame: rounded, as forms use it, and with all digits.
+  /// Centre of the bounding ball in the outer frame: centre() is rounded to double, as closed forms
+  /// use it; two_fold_centre() has twice the digits.
   const Vec3<double>& centre() const { return centre_.high; }
   const TwoFoldVec3<double>& two_fold_centre() const { return centre_; }
-  /// Null for the identity.
+  /// Linear part of the map from the outer to the inner frame; null for the identity.
   const Mat3<double>* linear_to_inner() const { return is_rigid_identity_ ? nullptr : &to_inner_; }
 
   const Shape& inner_shape() const { return definition_->inner_shape(); }
   const Ball<double>& inner_ball() const { return definition_->inner_ball(); }
-  /// Half extents of the inner shape's axis-aligned bounds.
+  /// Half extents of the inner shape's axis-aligned bounding box.
   const Vec3<double>& inner_half_extents() const { return definition_->inner_half_extents(); }
 
-  /// Model of the shape for the solvers on jets.
+  /// Kind of model that the stage `model` uses for this shape.
   ModelKind model() const { return definition_->model(); }
 
   /// Maps the ray to the inner frame, relative to the ball's centre; W is double or a packet of it.
@@ -70,10 +72,10 @@ class PreparedShape {
   RayNearBall<W> to_inner(const Ray<W>& ray) const {
     RayNearBall<W> near = ray_near<W>(centre_, ray);
     map_to_inner(near);
-    return near;  // not copied: reading a whole just after its parts were written stalls
+    return near;  // not copied: reading an object just after its parts were written is slow
   }
 
-  /// Same as to_inner, for one ray with a distant origin.
+  /// Same as to_inner, without losing digits if the ray's origin is far away.
   RayNearBall<double> to_inner_from_afar(const Ray<double>& ray) const {
     RayNearBall<double> near = ray_near_from_afar(centre_, ray);
     map_to_inner(near);
@@ -103,7 +105,7 @@ class PreparedShape {
     return is_rigid_identity_ ? normal : unit<W>(times<W, double>(to_inner_.transpose(), normal));
   }
 
-  /// Maps an outer normal to an inner one of any length; for hints, not for hot code.
+  /// Maps an outer normal to an inner normal of any length. Slow; used for initial normals.
   Vec3<double> normal_to_inner(const Vec3<double>& normal) const {
     return is_rigid_identity_ ? normal : Vec3<double>(to_inner_.transpose().inverse() * normal);
   }
@@ -116,7 +118,8 @@ class PreparedShape {
     near.lambda_max += W(end_slack());
   }
 
-  /// Tolerance at a ray's end: a ray that ends on the surface hits it in spite of rounding.
+  /// Length by which a ray's end may be extended, so that a ray that ends on the surface hits it in
+  /// spite of rounding.
   double end_slack() const { return tolerance::end_slack<double> * inner_ball().radius; }
 
   std::shared_ptr<const Definition> definition_;

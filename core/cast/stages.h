@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Stages of a cast (policy.h) after the filter and the bounds, one function each, for a ray in the
-// inner frame. Results have normals in that frame, and their `path`.
+// Later stages of a cast (policy.h): those after `filter` and `bounds`, one function each. Ray and
+// result are in the shape's inner frame; each result has its `path` set.
 #pragma once
 
 #include "core/cast/cast.h"
@@ -8,7 +8,7 @@
 
 namespace minkray {
 
-/// Input of all stages. The observer, if any, receives the iterations.
+/// Input of all stages. The observer, if any, receives every iteration.
 struct StageQuestion {
   const PreparedShape& shape;
   const RayNearBall<double>& near;
@@ -16,16 +16,17 @@ struct StageQuestion {
   const CastObserver& observer;
 };
 
-/// Stage::model, or Stage::support_portal.
+/// Runs Stage::model or Stage::support_portal.
 CastResult<double> ask_model(Stage stage, const StageQuestion& question);
 
-/// Stage::gjk and the paper's other algorithms.
+/// Runs Stage::gjk, johnson, signed_volumes or algorithm_1.
 CastResult<double> ask_gjk(Stage stage, const StageQuestion& question);
 
-/// Stage::finer, in long double. The result's t_base is near.t_base.
+/// Runs Stage::finer, in long double. The result's t_base is near.t_base.
 CastResult<double> ask_finer(const StageQuestion& question);
 
-/// Same as the two above, with an observer; compiled separately, not used by casts.
+/// Same as ask_model and ask_gjk, but report every iteration to the observer. Compiled separately,
+/// so that casts without an observer stay fast.
 CastResult<double> ask_model_observed(Stage stage, const StageQuestion& question);
 CastResult<double> ask_gjk_observed(Stage stage, const StageQuestion& question);
 

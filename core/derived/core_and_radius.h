@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A shape as queries on pairs of shapes see it: a core of one of few kinds about its own middle,
-// grown by a radius, in plain numbers that a solver reads without looking anything up. A sphere is
-// a point and a radius, a capsule a segment and a radius, a cylinder, cone or disk the hull of two
-// disks. The distance of grown shapes is their cores' less the radii, so solvers see cores only.
+// Representation of a shape for queries on pairs: a core of one of a few kinds, around a centre
+// called the middle, grown by a radius. A sphere is a point and a radius; a capsule is a segment
+// and a radius; the core of a cylinder, cone or disk is the hull of two disks. The distance of two
+// shapes is the distance of their cores minus the radii, so solvers handle only cores.
 #pragma once
 
 #include <memory>
@@ -25,17 +25,17 @@ enum class CoreKind : unsigned char {
 struct ShapeCore {
   CoreKind kind = CoreKind::point;
   bool is_round = false;  ///< `other`, and of revolution about the z axis
-  int count = 0;          ///< of a hull's points, filled up to a multiple of 8
-  /// A box' half extents, an ellipsoid's radii; of disks the radii below and above; of those and of
-  /// segments, z is the half height.
+  int count = 0;  ///< number of a hull's points; the arrays are filled up to a multiple of 8
+  /// Half extents of a box; radii of an ellipsoid; for disks, x and y are the radii of the lower
+  /// and the upper disk. For disks and segments, z is the half height.
   Vec3<double> size = Vec3<double>::Zero();
-  double radius = 0;          ///< by which the core is grown
-  double rounding = 0;        ///< the core may be off by so much: what its place has cost
-  double ball = 0;            ///< the radius of a ball around the middle that holds the core
+  double radius = 0;          ///< radius by which the core is grown
+  double rounding = 0;        ///< error bound of the core's position due to rounding
+  double ball = 0;            ///< radius of a ball around the middle that contains the core
   const double* x = nullptr;  ///< a hull's points, coordinate by coordinate
   const double* y = nullptr;
   const double* z = nullptr;
-  const Shape* shape = nullptr;  ///< of `other`
+  const Shape* shape = nullptr;  ///< shape of the kind `other`
 };
 
 /// Immutable and shared: copies are cheap.
@@ -45,12 +45,12 @@ struct CoreAndRadius {
   Mat3<double> turn = Mat3<double>::Identity();
   Vec3<double> middle = Vec3<double>::Zero();
   Vec3<double> middle_low = Vec3<double>::Zero();  ///< rounding error of `middle`
-  std::shared_ptr<const void> storage;             ///< of what the core points to
+  std::shared_ptr<const void> storage;             ///< owns the data that the core points to
 };
 
-/// Affine maps that keep angles, and radii, are taken off, also points and balls that are added to
-/// a shape; what is under any other map is `other`, but points, balls, boxes and ellipsoids along
-/// the axes of a scale, and hulls.
+/// Splits a shape under a map into core and radius. Removes rounding radii, affine maps that keep
+/// angles, and Minkowski sums with points and balls. Under any other map the core has the kind
+/// `other`, except points, balls and hulls, and boxes and ellipsoids scaled along their axes.
 CoreAndRadius core_and_radius(const Shape& shape, const Affine<double>& map = {});
 
 }  // namespace minkray

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a box around the origin. This is where the line enters the last of the
-// three slabs, unless it leaves another slab before.
+// Finds where a line enters a box around the origin. A slab is the space between two opposite
+// faces. The line enters the box where it enters the last of the three slabs, if it has left no
+// slab before.
 #pragma once
 
 #include "core/query/line.h"
@@ -31,8 +32,8 @@ template <class W, class Sizes>
   };
   entry.normal = -axis(x.in == t, y.in == t);
   if (any(entry.miss)) {
-    // The planes that prove the miss: the last plane entered and the first plane left, by the
-    // bounds.
+    // Two planes prove the miss: the last one that the line enters and the first one that it
+    // leaves.
     const Vec3<W> entered = -axis(x.in - x.e == lo, y.in - y.e == lo);
     const Vec3<W> left = axis(x.out + x.e == out_hi, y.out + y.e == out_hi);
     entry.normal = select<W>(entry.miss, between(entered, left, d), entry.normal);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a form of any kind.
+// Finds where a line enters the closed form of a shape: one function for all kinds of closed forms.
 #pragma once
 
 #include "core/exact/box.h"
@@ -15,8 +15,8 @@
 
 namespace minkray::exact {
 
-/// Enters the forms that are not inlined in `enter`. Inlined, these would cost the other forms
-/// registers: a second capsule and a call made spheres a fifth slower (docs/decisions/solvers.md).
+/// Handles the kinds of forms that `enter` does not inline. Inlining these as well would take
+/// registers from the other kinds: it made casts at spheres a fifth slower.
 template <class W>
 [[gnu::noinline]] Entry<W> enter_out_of_line(const Form& form, const Line<W>& line,
                                              const Mask<W>& open) {
@@ -32,7 +32,8 @@ template <class W>
   }
 }
 
-/// The line is in the form's frame. Results are valid only in `open` lanes.
+/// Finds where the line, given in the form's frame, enters the form. Results are valid only in
+/// `open` lanes.
 template <class W>
 [[gnu::always_inline]] inline Entry<W> enter(const Form& form, const Line<W>& line,
                                              const Mask<W>& open) {

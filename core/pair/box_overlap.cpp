@@ -10,9 +10,10 @@ BoxOverlap box_overlap(const CorePair& pair, CoreDistance& found) {
   const Mat3<double>& R = pair.turn;
   const Mat3<double> Q = R.cwiseAbs();
   double best = -std::numeric_limits<double>::infinity(), second = best;
-  // Directions that are worse by this are worse, too, once B has moved in by half of it.
+  // An axis whose gap is worse by this distance stays worse if B moves in by half the distance.
   const double way = 2 * deeper_by(pair);
-  int best_i = -1, best_j = -1;  // a face of A, one of B, or an edge of each
+  int best_i = -1, best_j = -1;  // best axis: a face normal of A (i), of B (j), or the cross
+                                 // product of two edges (i, j)
   const auto try_axis = [&](double gap, int i, int j) {
     if (!(gap > best)) {
       second = std::max(second, gap);
@@ -26,7 +27,7 @@ BoxOverlap box_overlap(const CorePair& pair, CoreDistance& found) {
   for (int i = 0; i < 3; ++i) try_axis(std::abs(x[i]) - a[i] - Q.row(i).dot(b), i, -1);
   for (int j = 0; j < 3; ++j) try_axis(std::abs(R.col(j).dot(x)) - b[j] - Q.col(j).dot(a), -1, j);
   if (best > 0) return BoxOverlap::none;
-  // All products are with the axis itself, so that edges which are nearly parallel lose no digits.
+  // Uses products with the unnormalised axis, so that nearly parallel edges lose no digits.
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
       const int i1 = (i + 1) % 3, i2 = (i + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
@@ -36,7 +37,7 @@ BoxOverlap box_overlap(const CorePair& pair, CoreDistance& found) {
       const double reach = a[i1] * std::abs(n1) + a[i2] * std::abs(n2) +
                            b[j1] * std::abs(R(i1, j1) * n1 + R(i2, j1) * n2) +
                            b[j2] * std::abs(R(i1, j2) * n1 + R(i2, j2) * n2);
-      // An axis that is no better needs no root.
+      // Skips the square root for an axis that is not better.
       const double gap = along - reach;
       const double worst = way - best;
       if (gap <= 0 && best <= 0 && gap * gap >= worst * worst * squared) continue;
@@ -64,13 +65,14 @@ BoxOverlap box_overlap(const CorePair& pair, CoreDistance& found) {
   } else if (best_i < 0) {
     found.a = of_a;
   } else {
-    // Once B has moved by -best n, two edges meet: of_a + s e and of_b - best n + t f.
+    // If B moves out by -best n, two edges meet: of_a + s e, and of_b - best n + t f.
     const Vec3<double> e = Vec3<double>::Unit(best_i), f = R.col(best_j);
     const Vec3<double> between = of_b - found.c - of_a;
     const double cosine = e.dot(f), squared = 1 - cosine * cosine;
     found.a = of_a + ((between.dot(e) - between.dot(f) * cosine) / squared) * e;
   }
-  // Rounding aside these are points of both, unless an edge or a face lies in the plane.
+  // Up to rounding, a and a + c are points of A and B, unless an edge or a face lies in the contact
+  // plane.
   constexpr double outside = 1e-12;
   const double most = outside * pair.size();
   const Vec3<double> on_b = pair.to_b(found.a + found.c - x);

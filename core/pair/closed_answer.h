@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes the result of a closed form for a pair of cores: both bounds are equal.
+// Builds the result of a closed form for a pair of cores, in which both bounds are equal.
 #pragma once
 
 #include "core/math/length.h"
@@ -18,8 +18,8 @@ inline CoreDistance closed_answer(double distance, const Vec3<double>& axis, con
   return result;
 }
 
-/// Result for the vector c from point a of A to a point of B. The axis is the direction of c, or
-/// `otherwise` if c is 0.
+/// Builds the result whose nearest points are the point a of A and the point a + c of B. The axis
+/// is the direction of c, or `otherwise` if c is 0.
 inline CoreDistance closed_between(const Vec3<double>& a, const Vec3<double>& c,
                                    const Vec3<double>& otherwise) {
   const Vec3<double> direction = unit<double>(c);

@@ -8,38 +8,40 @@
 namespace minkray {
 namespace {
 
-/// The parameter, from -1 to 1, of the point of the segment from -half to +half nearest to p.
+/// Returns the s in [-1, 1] for which s * half is nearest to p: the nearest point of the segment
+/// from -half to +half.
 double nearest_on_segment(const Vec3<double>& half, const Vec3<double>& p) {
   const double squared = half.squaredNorm();
   return squared > 0 ? std::clamp(p.dot(half) / squared, -1.0, 1.0) : 0;
 }
 
-/// Too much of a smaller cross product n of p and q is rounding; such segments are parallel to
-/// rounding.
+/// True if the cross product n of p and q is large enough to have a direction. If n is smaller,
+/// most of it is rounding error, and the segments count as parallel.
 bool tells_direction(const Vec3<double>& n, double pp, double qq) {
   constexpr double rounded = 8 * std::numeric_limits<double>::epsilon();
   return n.squaredNorm() > rounded * rounded * pp * qq;
 }
 
-/// n's direction, at right angles to p: then to q as well, since what rounding has turned n by is
-/// the more, the nearer q is to p.
+/// Returns the direction of n, corrected to be perpendicular to p. If p and q are nearly parallel,
+/// it is then perpendicular to q, too; otherwise n needs no correction.
 Vec3<double> common_perpendicular(const Vec3<double>& p, const Vec3<double>& n) {
   const Vec3<double> axis = unit<double>(n);
   return unit<double>(axis - (axis.dot(p) / p.squaredNorm()) * p);
 }
 
-/// The nearest points s p and x + t q of two segments, s and t from -1 to 1, of any two: within
-/// both, or one of them is an end.
+/// Nearest points of two segments: s p on A and x + t q on B, with s and t in [-1, 1]. Either both
+/// points are inside their segments, or at least one is an end.
 struct OnSegments {
   double s, t;
-  bool is_within;  ///< and not parallel: then it is the common perpendicular
+  bool is_within;  ///< both are inside; the line between them is the common perpendicular
 };
 
+/// Returns the nearest points of any two segments, by trying the inside and all four ends.
 OnSegments nearest_of_any(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& x,
                           const Vec3<double>& n) {
   const double qq = q.squaredNorm();
   if (tells_direction(n, p.squaredNorm(), qq)) {
-    // Here s may be rounded by much. t goes with s as it is.
+    // The error of s may be large here, so t is computed from the rounded s.
     const double s = x.cross(q).dot(n) / n.squaredNorm(), t = (s * p - x).dot(q) / qq;
     if (std::abs(s) <= 1 && std::abs(t) <= 1) return {s, t, true};
   }
@@ -58,8 +60,8 @@ OnSegments nearest_of_any(const Vec3<double>& p, const Vec3<double>& q, const Ve
   return nearest;
 }
 
-/// Answers for segments that are neither nearly parallel nor points (C. Ericson, "Real-Time
-/// Collision Detection", 2005, section 5.1.9). `pp`, `qq`, `pq` are products of the two.
+/// Returns the nearest points of segments that are neither nearly parallel nor points (C. Ericson,
+/// "Real-Time Collision Detection", 2005, section 5.1.9). `pp`, `qq` and `pq` are dot products.
 OnSegments nearest_of_crossing(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& x,
                                double pp, double qq, double pq) {
   const double px = p.dot(x), qx = q.dot(x);
@@ -70,7 +72,7 @@ OnSegments nearest_of_crossing(const Vec3<double>& p, const Vec3<double>& q, con
   return {std::clamp((px + end * pq) / pp, -1.0, 1.0), end, false};
 }
 
-/// Some direction at right angles to both, whatever they are.
+/// Returns a direction perpendicular to p and q, which may be parallel or zero.
 Vec3<double> across(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& n) {
   if (tells_direction(n, p.squaredNorm(), q.squaredNorm())) return common_perpendicular(p, n);
   if (p.squaredNorm() > 0) return p.unitOrthogonal();
@@ -78,9 +80,9 @@ Vec3<double> across(const Vec3<double>& p, const Vec3<double>& q, const Vec3<dou
   return Vec3<double>::UnitX();
 }
 
-/// The direction of c = x + t q - s p: no point of A is further along it, and none of B less far.
-/// If c is as good as zero, it is one of rounding: that is taken out, twice where that is most of
-/// it, since the first time leaves some.
+/// Returns the direction of c = x + t q - s p, corrected so that s p is A's furthest point along it
+/// and x + t q is B's nearest. If c is nearly zero, most of it is rounding error: the correction
+/// removes this error, and a second correction removes the remainder.
 Vec3<double> direction_between(const Vec3<double>& p, const Vec3<double>& q, double pp, double qq,
                                const Vec3<double>& c, double s, double t, const Vec3<double>& n,
                                bool is_crossing) {
@@ -94,7 +96,7 @@ Vec3<double> direction_between(const Vec3<double>& p, const Vec3<double>& q, dou
   for (int i = 0; i < 2; ++i) {
     const bool is_turned_a = leans_to_a(axis);
     if (is_turned_a) axis -= (axis.dot(p) / pp) * p;
-    // Nearly parallel ones are at right angles to both only in this order.
+    // For nearly parallel segments, only this order gives a direction perpendicular to both.
     const bool is_turned_b = leans_to_b(axis);
     if (is_turned_b) axis -= (axis.dot(q) / qq) * q;
     const double left = axis.squaredNorm();
@@ -102,7 +104,7 @@ Vec3<double> direction_between(const Vec3<double>& p, const Vec3<double>& q, dou
       axis = across(p, q, n);
       continue;
     }
-    if (is_crossing && is_turned_b && leans_to_a(axis)) {  // at right angles to both
+    if (is_crossing && is_turned_b && leans_to_a(axis)) {  // perpendicular to both
       const Vec3<double> across_both = n / std::sqrt(n.squaredNorm());
       return axis.dot(across_both) < 0 ? Vec3<double>(-across_both) : across_both;
     }
@@ -113,7 +115,7 @@ Vec3<double> direction_between(const Vec3<double>& p, const Vec3<double>& q, dou
   return axis;
 }
 
-/// A point, and a segment from x - q to x + q.
+/// Returns the distance between a point at the origin and the segment from x - q to x + q.
 CoreDistance point_and_segment(const Vec3<double>& q, const Vec3<double>& x) {
   const double qq = q.squaredNorm(), t = std::clamp(-x.dot(q) / qq, -1.0, 1.0);
   const Vec3<double> c = x + t * q, zero = Vec3<double>::Zero();
@@ -125,8 +127,8 @@ CoreDistance point_and_segment(const Vec3<double>& q, const Vec3<double>& x) {
 
 CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& x) {
   const double pp = p.squaredNorm(), qq = q.squaredNorm();
-  // Products of squares of shorter lengths are no normal numbers, and compared with the smallest
-  // length that counts such a length is less than a rounding.
+  // Segments shorter than this count as points. Products of their squares would not be normal
+  // numbers, and their length is less than the rounding of the smallest length that matters.
   constexpr double shortest = smallest_length * 0x1p-60;
   const bool is_point_a = !(pp > shortest * shortest), is_point_b = !(qq > shortest * shortest);
   if (is_point_a && is_point_b)
@@ -134,7 +136,7 @@ CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, cons
   if (is_point_a) return point_and_segment(q, x);
   if (is_point_b && qq > 0) return between_segments(p, Vec3<double>::Zero(), x);
   const double pq = p.dot(q);
-  // Products of nearly parallel ones have too few digits for the nearest points.
+  // For nearly parallel segments, the products have too few digits to give the nearest points.
   constexpr double parallel = 1e-2;
   const bool is_crossing = pp * qq - pq * pq > parallel * pp * qq && qq > 0;
   const Vec3<double> n = p.cross(q);
@@ -156,7 +158,8 @@ CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, cons
   const auto try_axis = [&](const Vec3<double>& m) {
     if (!m.isZero(0) && gap(m) > gap(axis)) axis = m;
   };
-  // Rounding may hide which ends of nearly parallel ones count: the best plane is taken.
+  // Rounding may hide which ends of nearly parallel segments are nearest. So this tries several
+  // planes and takes the best.
   if (!is_crossing) {
     const Vec3<double> beside = across(p, q, n);
     try_axis(beside.dot(x) < 0 ? Vec3<double>(-beside) : beside);
@@ -165,7 +168,7 @@ CoreDistance between_segments(const Vec3<double>& p, const Vec3<double>& q, cons
     if (qq > 0) try_axis(unit<double>(towards - (towards.dot(q) / qq) * q));
   }
   CoreDistance found = closed_answer(length_of(c), axis, a, c);
-  // The direction is short of digits if they are near each other.
+  // If the segments are near each other, the direction has too few digits to give the exact gap.
   found.lower = std::min(found.lower, gap(axis));
   return found;
 }

@@ -8,7 +8,8 @@
 namespace minkray {
 namespace {
 
-/// A point p against a box; c goes from the box to the point, or inside of it to the nearest face.
+/// Returns the signed distance of a box and a point p. c leads from the box's nearest point to p;
+/// for a p inside, from the nearest face.
 CoreDistance point_and_box(const Vec3<double>& half, const Vec3<double>& p) {
   const Vec3<double> nearest = p.cwiseMax(-half).cwiseMin(half);
   if (nearest != p) return closed_between(nearest, p - nearest, Vec3<double>::UnitX());
@@ -21,7 +22,8 @@ CoreDistance point_and_box(const Vec3<double>& half, const Vec3<double>& p) {
   return closed_answer(-inside[face], axis, on_face, p - on_face);
 }
 
-/// A point p against a cylinder, or a disk: by how much it is beyond the side and beyond an end.
+/// Returns the signed distance of a cylinder or disk and a point p, from p's distances beyond the
+/// side and beyond the nearer end (negative inside).
 CoreDistance point_and_cylinder(double radius, double half, const Vec3<double>& p) {
   const double rho = length_of(p.x(), p.y()), side = p.z() < 0 ? -1 : 1;
   const double beyond_side = rho - radius, beyond_end = side * p.z() - half;
@@ -41,8 +43,8 @@ CoreDistance point_and_cylinder(double radius, double half, const Vec3<double>& 
   return closed_answer(gap, axis, p - c, c);
 }
 
-/// The part of d between two unit vectors m and n: for a d that is a difference of neighbours,
-/// rounding may lead out of there.
+/// Returns the direction of d, limited to the angle between the unit vectors m and n. If d is the
+/// difference of two close points, rounding may turn d out of this angle.
 std::array<double, 2> between_directions(const double* m, const double* n, double d0, double d1) {
   const double area = m[0] * n[1] - m[1] * n[0];
   const double along_m = (d0 * n[1] - d1 * n[0]) / area, along_n = (m[0] * d1 - m[1] * d0) / area;
@@ -52,8 +54,9 @@ std::array<double, 2> between_directions(const double* m, const double* n, doubl
   return {d0 / length, d1 / length};
 }
 
-/// A point p against the hull of two disks around z: in the half plane of p and the axis, against
-/// their ends and the line between their rims.
+/// Returns the signed distance of the hull of two disks around z and a point p. Works in the half
+/// plane that contains p and is bounded by the axis, in which the hull has three edges: two ends
+/// and the side between the rims.
 CoreDistance point_and_disks(const Vec3<double>& size, const Vec3<double>& p) {
   const double half = size.z(), below = size.x(), above = size.y();
   const double rho = length_of(p.x(), p.y()), z = p.z();
@@ -62,7 +65,7 @@ CoreDistance point_and_disks(const Vec3<double>& size, const Vec3<double>& p) {
     return {across * (p.x() / rho), across * (p.y() / rho), along};
   };
   const double slant = length_of(2 * half, below - above);
-  // Outward normals: of the end below, of the side, of the end above.
+  // Outward normals of the lower end, the side and the upper end.
   const double normal[3][2] = {
       {0, -1}, {slant > 0 ? 2 * half / slant : 1, slant > 0 ? (below - above) / slant : 0}, {0, 1}};
   const double on_face[3][2] = {{0, -half}, {below, -half}, {above, half}};
@@ -72,7 +75,7 @@ CoreDistance point_and_disks(const Vec3<double>& size, const Vec3<double>& p) {
     gap[k] = normal[k][0] * (rho - on_face[k][0]) + normal[k][1] * (z - on_face[k][1]);
     if (gap[k] > gap[face]) face = k;
   }
-  // Position of p along the side, from the rim below: before 0 and after `slant` it is beyond one.
+  // Position of p along the side: 0 at the lower rim, `slant` at the upper rim.
   const double along =
       slant > 0 ? (2 * half * (z + half) - (below - above) * (rho - below)) / slant : 0;
   const bool is_by_face = gap[face] <= 0 || (face == 0 && rho <= below) ||
@@ -83,7 +86,8 @@ CoreDistance point_and_disks(const Vec3<double>& size, const Vec3<double>& p) {
     const Vec3<double> c = gap[face] * axis;
     return closed_answer(gap[face], axis, p - c, c);
   }
-  // Not by the lengths to the two: from far away they are the same number.
+  // Chooses the nearer rim without comparing distances, which are rounded to equal numbers if p is
+  // far away.
   const bool is_below = face == 0 || (face == 1 && along < 0);
   const int rim = is_below ? 0 : 2;
   const double at0 = is_below ? below : above, at1 = is_below ? -half : half;
@@ -98,7 +102,7 @@ CoreDistance point_and_disks(const Vec3<double>& size, const Vec3<double>& p) {
 CoreDistance between_solid_and_point(const ShapeCore& solid, const Vec3<double>& p) {
   const Vec3<double>& size = solid.size;
   if (solid.kind == CoreKind::box) return point_and_box(size, p);
-  // The larger one of two disks without a height is all there is.
+  // Two disks without a height between them are one disk, the larger of the two.
   if (size.x() == size.y() || !(size.z() > 0))
     return point_and_cylinder(std::max(size.x(), size.y()), size.z(), p);
   return point_and_disks(size, p);

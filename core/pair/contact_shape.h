@@ -10,10 +10,10 @@
 
 namespace minkray {
 
-/// Immutable and cheap to copy.
+/// A shape as a core and a radius, in the frame of a body. Immutable and cheap to copy.
 class ContactShape {
  public:
-  /// `map` maps the shape's frame to the body's; it may be any invertible map.
+  /// `map` maps the shape's frame to the body's frame, and may be any invertible map.
   explicit ContactShape(const Shape& shape, const Affine<double>& map = {})
       : ContactShape(core_and_radius(shape, map)) {}
   explicit ContactShape(CoreAndRadius core_and_radius)
@@ -23,14 +23,15 @@ class ContactShape {
         offset_(length_of(core_and_radius_.middle)) {}
 
   const ShapeCore& core() const { return core_and_radius_.core; }
-  /// Rotation from the core's frame to the body's; keeps lengths.
+  /// Rotation (or reflection) from the core's frame to the body's frame.
   const Mat3<double>& turn() const { return core_and_radius_.turn; }
+  /// Origin of the core's frame in the body's frame: the centre of the core.
   const Vec3<double>& middle() const { return core_and_radius_.middle; }
   TwoFoldVec3<double> exact_middle() const {
     return {core_and_radius_.middle, core_and_radius_.middle_low};
   }
-  /// is_turned(): the core's frame is rotated. is_moved(): the middle is not the body's origin.
-  /// Most shapes are neither, which halves the cost of computing a pair's relative pose.
+  /// True if the core's frame is rotated (is_turned), or the middle is not the body's origin
+  /// (is_moved). Most shapes are neither, which halves the cost of a pair's relative pose.
   bool is_turned() const { return is_turned_; }
   bool is_moved() const { return is_moved_; }
   /// Distance of the middle from the body's origin.
@@ -52,11 +53,11 @@ class ContactShape {
 
 /// Pose of a core in the world.
 struct PlacedCore {
-  Mat3<double> turn;  ///< from the core's frame to the world
+  Mat3<double> turn;  ///< rotation from the core's frame to the world
   Vec3<double> middle;
 };
 
-/// From the core's frame to the world.
+/// Returns the rotation from the core's frame to the world.
 inline Mat3<double> turn_in_world(const ContactShape& shape, const Mat3<double>& linear) {
   if (!shape.is_turned()) return linear;
   return linear * shape.turn();
@@ -81,8 +82,8 @@ struct PlacedMiddle {
 };
 PlacedMiddle placed_middle(const ContactShape& shape, const Affine<double>& pose);
 
-/// Vector from one point to another in world axes. The error bound includes the rounding of the
-/// points' positions, but not that of the vector itself.
+/// Vector from one middle to the other in world axes. `loss` bounds the error due to rounding of
+/// the middles' positions, but not the rounding of the vector itself.
 struct Between {
   Vec3<double> x;
   double loss = 0;
@@ -92,7 +93,7 @@ struct Between {
 Between between_middles(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                         const Affine<double>& pose_b);
 
-/// Both cores in A's frame. `turn_a` is A's turn_in_world().
+/// Returns both cores in A's frame. `turn_a` is A's turn_in_world().
 CorePair pair_of(const ContactShape& a, const Affine<double>& pose_a, const Mat3<double>& turn_a,
                  const ContactShape& b, const Affine<double>& pose_b);
 CorePair pair_of(const ContactShape& a, const Mat3<double>& turn_a, const ContactShape& b,

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Pairs of kinds that the solvers are compiled for.
+// Selects the code that is compiled for a pair of kinds of cores.
 #pragma once
 
 #include "core/pair/core_pair.h"
 
 namespace minkray {
 
-/// Calls f.template operator()<A, B>() for the pair's kinds if both are known and A's is not after
-/// B's in the enumeration; otherwise with `other` for both.
+/// Calls f.template operator()<A, B>() for the kinds A and B of the pair's cores, if neither is
+/// `other` and A is not after B in the enumeration; otherwise calls it with `other` for both.
 template <class F>
 auto with_core_kinds(const CorePair& pair, F&& f) {
   return with_core_kind(pair.a.kind, [&]<CoreKind A>() {

@@ -11,20 +11,21 @@
 
 namespace minkray {
 
-/// Bound of all rounding errors of a query, relative to the sizes plus the distance of the middles.
+/// Bound of all rounding errors of a query, relative to the sum of the shapes' sizes and the
+/// distance of the middles.
 inline constexpr double core_rounding = 16 * std::numeric_limits<double>::epsilon();
 
 struct CorePair {
   const ShapeCore& a;
   const ShapeCore& b;
-  Mat3<double> turn;  ///< from B's frame to A's
+  Mat3<double> turn;  ///< rotation from B's frame to A's frame
   Vec3<double> x;     ///< B's middle in A's frame
   double loss = 0;    ///< error bound of x: rounding of the bodies' positions
 
-  /// Sum of the radii of balls around the middles. Rounding errors are relative to this sum.
+  /// Sum of the radii of the cores' bounding balls. Rounding errors are relative to this sum.
   double size() const { return a.ball + b.ball; }
   double radii() const { return a.radius + b.radius; }
-  /// Error bound of a gap between the grown cores.
+  /// Error bound of a gap between the shapes (cores grown by their radii).
   double rounding() const { return core_rounding * (size() + radii() + x.norm()) + loss; }
   Vec3<double> to_b(const Vec3<double>& d) const { return turn.transpose() * d; }
 };
@@ -46,7 +47,7 @@ inline DifferencePoint nearest_along(const CorePair& pair, const Vec3<double>& d
   return {pair.x + pair.turn * b.point - a.point, a.point, a.feature, b.feature};
 }
 
-/// Looks up the cores' kinds in each call.
+/// Same for cores whose kinds are not known when compiling; each call looks up the kinds.
 inline DifferencePoint nearest_along(const CorePair& pair, const Vec3<double>& d) {
   return nearest_along<CoreKind::other, CoreKind::other>(pair, d);
 }
@@ -54,20 +55,21 @@ inline DifferencePoint nearest_along(const CorePair& pair, const Vec3<double>& d
 enum class CoreStatus : unsigned char {
   separated,    ///< a plane with the normal `axis` separates the cores
   overlapping,  ///< a common point was found
-  unsettled,    ///< rounding ended the search: the bounds hold, but may differ
+  unsettled,    ///< rounding ended the search: the bounds hold, but may be far apart
 };
 
-/// Distance of two cores. The bounds do not include rounding.
+/// Result of a search for the distance of two cores. The bounds do not include rounding.
 struct CoreDistance {
   CoreStatus status = CoreStatus::unsettled;
-  double lower = -std::numeric_limits<double>::infinity();  ///< minimum of axis.c
-  double upper = std::numeric_limits<double>::infinity();   ///< |c| of a point of C
+  double lower = -std::numeric_limits<double>::infinity();  ///< minimum of axis.c over C
+  double upper = std::numeric_limits<double>::infinity();   ///< length |c| of some point c of C
   Vec3<double> axis = Vec3<double>::Zero();                 ///< of unit length, from A to B
-  Vec3<double> a = Vec3<double>::Zero();                    ///< a point of A, in its frame
-  Vec3<double> c = Vec3<double>::Zero();                    ///< vector from a to a point of B
-  int supports = 0;                                         ///< support points of C computed
+  Vec3<double> a = Vec3<double>::Zero();                    ///< nearest point of A, in A's frame
+  Vec3<double> c = Vec3<double>::Zero();  ///< vector from a to the nearest point of B
+  int supports = 0;                       ///< number of support points of C computed
   bool is_exhausted = false;  ///< the search ran out of support points before the bounds met
-  /// True if the cores overlap and no other direction is nearly as good: see deeper_by().
+  /// True if the cores overlap and it is proven that no other direction gives nearly the same depth
+  /// (see deeper_by).
   bool has_one_direction = false;
 
   void raise_lower(double bound, const Vec3<double>& unit_axis) {
@@ -77,25 +79,26 @@ struct CoreDistance {
   }
 };
 
-/// To find other directions of the depth, B is moved deeper along the axis by this distance. The
-/// depth along a direction at an angle to the axis grows by the distance times the cosine of the
-/// angle. If the depth grows by at least 1 - `leaning` of the distance, its direction is unique.
+/// Distance of a test for other directions of least depth: B is moved deeper along the axis by this
+/// distance. The depth along another direction grows by the distance times the cosine of its angle
+/// to the axis. If the least depth grows by at least 1 - `leaning` of the distance, its direction
+/// is unique.
 inline double deeper_by(const CorePair& pair) {
   constexpr double step = 1e-4;  // of the sizes
   return step * (pair.size() + pair.radii());
 }
-/// Least 1 - cos of the angle between two different directions.
+/// Least value of 1 - cos(angle) between directions that count as different.
 inline constexpr double leaning = 1e-4;
 
 /// Criteria for the end of a search.
 struct CoreSearch {
   double gap = 1e-12;  ///< upper - lower, relative to the size
-  /// The search ends once the distance is proven to be above `apart`.
+  /// The search also ends once the distance is proven to be above `apart`.
   double apart = std::numeric_limits<double>::infinity();
   int max_turns = 200;
-  bool may_slide = true;  ///< curved surfaces are searched to second order
-  /// If not null: the search starts from this state, unless it is empty, and stores its final state
-  /// here.
+  bool may_slide = true;  ///< allows second-order steps on curved surfaces (sliding_features.h)
+  /// If not null, the search starts from this state (unless that is empty), and stores its final
+  /// state there.
   PairMemory* memory = nullptr;
 };
 

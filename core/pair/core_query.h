@@ -7,7 +7,7 @@
 
 namespace minkray {
 
-/// Points this close to each other, in sizes, count as one common point.
+/// Points of A and B that are this close, relative to the size, count as one common point.
 inline constexpr double common_point = 1e-15;
 
 template <CoreKind A, CoreKind B>
@@ -23,7 +23,8 @@ struct CoreQuery {
     return nearest_along<A, B>(pair, d);
   }
 
-  /// Sets the result: a point of A, and the vector c from this point to B's. Returns true.
+  /// Sets the final result: the nearest point a of A, and the vector c from a to the nearest point
+  /// of B. Returns true, so that callers can return it.
   bool end_at(CoreStatus status, const Vec3<double>& a, const Vec3<double>& c) {
     result.status = status;
     result.a = a;

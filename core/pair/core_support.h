@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Support mapping of a core for the solvers: support points, each with its feature of the surface
-// (a vertex, a rim, an ellipsoid); the support point of a given feature, and its derivative with
-// respect to the direction. The kind is a template parameter, so solvers can be compiled for a pair
-// of kinds; with `CoreKind::other` each call looks up the kind.
+// Support mapping of a core, for solvers of pairs. Each support point comes with its feature: the
+// part of the surface (a vertex, a rim, an ellipsoid) that it lies on. Also gives the furthest
+// point of a given feature, and that point's derivative with respect to the direction. The core's
+// kind is a template parameter, so that solvers are compiled per kind; `CoreKind::other` looks it
+// up per call.
 #pragma once
 
 #include "core/pair/hull_scan.h"
@@ -36,12 +37,13 @@ auto with_core_kind(CoreKind kind, F&& f) {
   return f.template operator()<CoreKind::other>();
 }
 
-/// True if such a core has curved features, along which support points slide (`add_curvature`).
+/// True if cores of this kind have curved features. When the direction turns, support points slide
+/// along such a feature (`add_curvature`).
 constexpr bool slides(CoreKind kind) {
   return kind == CoreKind::disks || kind == CoreKind::ellipsoid;
 }
 
-/// The feature's point furthest along d, which may have any length except zero.
+/// Returns the feature's furthest point along d, which may have any length except zero.
 template <CoreKind K>
 inline Vec3<double> point_of_feature(const ShapeCore& core, int feature, const Vec3<double>& d) {
   const Vec3<double>& size = core.size;
@@ -75,7 +77,7 @@ inline Vec3<double> point_of_feature(const ShapeCore& core, int feature, const V
   }
 }
 
-/// The core's point furthest along d, which may have any length except zero.
+/// Returns the core's furthest point along d, which may have any length except zero.
 template <CoreKind K>
 inline CoreSupport support_of_core(const ShapeCore& core, const Vec3<double>& d) {
   if constexpr (K == CoreKind::point || K == CoreKind::ellipsoid) {
@@ -112,7 +114,7 @@ inline CoreSupport support_of_core(const ShapeCore& core, const Vec3<double>& d)
   }
 }
 
-/// A symmetric matrix, for sums of t t^T.
+/// A symmetric 3 x 3 matrix, to which outer products t t^T are added.
 struct Symmetric {
   double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Corners of a hull's face as a plane polygon, relative to a point of the face.
+// Finds the corners of a face of a hull, as a polygon in the face's plane, relative to a point of
+// the face.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +16,9 @@ struct PlaneCorner {
   double angle, x, y;
 };
 
-/// Returns the hull's points for which takes(height along n above the point) is true, in any order,
-/// without their angles. The list is valid until the thread's next call.
+/// Returns the hull's points for which takes(height) is true, where `height` is measured along n
+/// from the given point. The points are in no order, and their angles are not set. The list is
+/// valid until the next call in the same thread.
 template <class Takes>
 std::vector<PlaneCorner>& face_corners(const ShapeCore& core, const Vec3<double>& point,
                                        const Vec3<double>& n, const Takes& takes) {
@@ -30,13 +32,14 @@ std::vector<PlaneCorner>& face_corners(const ShapeCore& core, const Vec3<double>
   return corners;
 }
 
-/// Sorts the corners round the point.
+/// Sorts the corners by their angle around the point.
 inline void sort_round(std::vector<PlaneCorner>& corners) {
   for (PlaneCorner& corner : corners) corner.angle = std::atan2(corner.y, corner.x);
   std::ranges::sort(corners, {}, &PlaneCorner::angle);
 }
 
-/// Distance of a face's corners from the face's plane due to rounding, relative to the size.
+/// Largest distance due to rounding of a face's corners from the face's plane, relative to the
+/// size.
 inline constexpr double flat_face = 1e-12;
 
 }  // namespace minkray

@@ -26,7 +26,7 @@ FlatPart of_disks(const ShapeCore& core, const Vec3<double>& d, double tilt) {
     if ((above ? core.size.y() : core.size.x()) > 0) return {2};
     return {};
   }
-  // The line on the side from one rim to the other.
+  // Direction of the side: the line from one rim to the other that faces d.
   const double rise = 2 * core.size.z(), widening = core.size.y() - core.size.x();
   const double length = widening == 0 ? rise : std::hypot(rise, widening);
   if (!(length > 0) || std::abs(rise * d.z() + widening * across) > tilt * length) return {};
@@ -38,10 +38,10 @@ FlatPart of_hull(const ShapeCore& core, const Vec3<double>& d, double tilt) {
   const int best = furthest_of_hull(core, d.x(), d.y(), d.z());
   const Vec3<double> s(core.x[best], core.y[best], core.z[best]);
   const double furthest = s.dot(d), most = furthest - 2 * tilt * core.ball;
-  constexpr double same = 1e-12;  // points nearer to each other than this, in sizes, are one
+  constexpr double same = 1e-12;  // points closer than this, relative to the size, count as one
   constexpr double straight = 1e-9;
   FlatPart part;
-  int many = 0;  // counted without a branch
+  int many = 0;  // number of points near the support plane, counted without a branch
   for (int i = 0; i < core.count; ++i)
     many += core.x[i] * d.x() + core.y[i] * d.y() + core.z[i] * d.z() >= most ? 1 : 0;
   if (many <= 1) [[likely]]
@@ -66,7 +66,8 @@ FlatPart of_hull(const ShapeCore& core, const Vec3<double>& d, double tilt) {
 
 FlatPart of_other(const ShapeCore& core, const Vec3<double>& d, double tilt) {
   constexpr double least_tilt = 1e-7;
-  // Surfaces of a radius of less than some thousand sizes move by less than this, in sizes.
+  // On curved surfaces with radii below about 4000 sizes, the support point moves by less than
+  // `flat` (relative to the size) when the direction turns by `step`.
   const double step = std::max(2 * tilt, least_tilt), flat = std::max(1e-3, 4e3 * step);
   const Vec3<double> u = d.unitOrthogonal(), v = d.cross(u);
   FlatPart part;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Final state of a query on a pair of bodies, kept by the caller for the next frame: the separating
-// axis (G. van den Bergen, "Ray Casting against General Convex Objects", 2004, section 4) and the
-// features of the nearest points. The state is only the start of a search; bounds are proven for
-// any contents, even those of another pair.
+// Warm start: final state of a query on a pair of bodies, which the caller passes to the next
+// query. Contains the separating axis (G. van den Bergen, "Ray Casting against General Convex
+// Objects", 2004, section 4) and the features of the nearest points. The state only sets where a
+// search starts, so results are proven for any contents, even those of another pair.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 namespace minkray {
 
 struct PairMemory {
-  /// Direction of the last result, in the frame of the first core; zero: none.
+  /// Axis of the last result, in the frame of the first core; zero: none.
   Vec3<double> axis = Vec3<double>::Zero();
-  /// The features of the nearest points, on the first core and on the second.
+  /// Features that the nearest points lie on, of the first core and of the second.
   std::int32_t feature_a[4] = {}, feature_b[4] = {};
   std::int32_t count = 0;
 
@@ -25,7 +25,7 @@ struct PairMemory {
   }
 };
 
-/// True if the core has a feature of this number.
+/// True if `feature` is the number of a feature of the core.
 inline bool is_feature_of(const ShapeCore& core, std::int32_t feature) {
   switch (core.kind) {
     case CoreKind::point:

@@ -4,13 +4,13 @@
 
 namespace minkray {
 
-/// For lengths within these limits, sixth powers (such as squares of triple products) are normal
-/// numbers.
+/// Limits of lengths whose sixth powers (such as squares of triple products) are normal numbers, so
+/// that they neither overflow nor lose digits.
 inline constexpr double largest_length = 0x1p160;
 inline constexpr double smallest_length = 1 / largest_length;
 
-/// True if products of a pair's lengths are normal numbers or 0. Bodies far apart need no products
-/// of small lengths.
+/// True if all products of a pair's lengths are normal numbers or 0. Pairs that are far apart may
+/// be small, since they need no products of small lengths.
 inline bool are_searchable(double size, double distance) {
   const double length = size + distance;
   return size < largest_length && (length > smallest_length || length == 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A triangle as a ContactShape that stores the corners in itself: made for one query without memory
-// allocation.
+// A triangle as a ContactShape that stores its corners itself, so that it can be made for a single
+// query without allocating memory.
 #pragma once
 
 #include "core/pair/contact_shape.h"
@@ -17,7 +17,7 @@ class TrianglePart {
   const ContactShape& shape() const { return shape_; }
 
  private:
-  static constexpr int count = 8;  // hulls are filled up to it
+  static constexpr int count = 8;  // arrays of hulls are filled up to a multiple of this
 
   CoreAndRadius core_of(const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& c) {
     constexpr double padding = 1 + 16 * std::numeric_limits<double>::epsilon();

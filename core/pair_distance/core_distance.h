@@ -9,13 +9,15 @@
 
 namespace minkray {
 
-/// Four points of B - A that enclose the origin, if found. A polytope can start from these points.
+/// Four points c of C = B - A that enclose the origin, if found, with their points a of A. The
+/// polytope (expanding_polytope.h) can start from these points.
 struct Enclosure {
   std::array<Vec3<double>, 4> c, a;
   bool is_found = false;
 };
 
-/// Returns the distance of two cores. Fastest if A's kind is not after B's.
+/// Returns the distance of two cores. Fastest if A's kind is not after B's in CoreKind. If
+/// `enclosure` is not null, writes four points there that enclose the origin, if any were found.
 CoreDistance distance_of_cores(const CorePair& pair, const CoreSearch& search,
                                Enclosure* enclosure = nullptr);
 

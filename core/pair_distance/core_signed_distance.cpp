@@ -14,8 +14,8 @@
 namespace minkray {
 namespace {
 
-/// Computes the depth by a polytope that grows from the enclosure. Returns true if the bounds met;
-/// they hold in any case.
+/// Computes the depth by a polytope that grows from the enclosure (four points of C around the
+/// origin). Returns true if the bounds met; the bounds hold in any case.
 template <CoreKind A, CoreKind B>
 bool expand(const CorePair& pair, double gap, const Enclosure& enclosure, CoreDistance& found) {
   ExpandingPolytope<A, B> polytope(pair, gap, found);
@@ -42,7 +42,7 @@ bool enclose(const CorePair& pair, double gap, CoreDistance& found, Enclosure& e
 bool depth_by_polytope(const CorePair& pair, double gap, Enclosure enclosure, CoreDistance& found) {
   constexpr double shallow = 1e-4;
   const bool is_shallow = found.lower > -shallow * pair.size();
-  // GJK's enclosure is then flat to within rounding.
+  // For a shallow overlap, GJK's enclosure is flat up to rounding.
   Enclosure finer;
   if (is_shallow && enclose(pair, gap, found, finer)) enclosure = finer;
   if (!enclosure.is_found) {
@@ -59,7 +59,8 @@ bool depth_by_polytope(const CorePair& pair, double gap, Enclosure enclosure, Co
   return expand<other, other>(pair, gap, enclosure, found);
 }
 
-/// Depth of the origin inside four points of C; negative if unknown.
+/// Returns a lower bound of the origin's depth in the tetrahedron of four points of C; negative if
+/// unknown.
 double depth_within(const Enclosure& four) {
   if (!four.is_found) return -1;
   double least = std::numeric_limits<double>::infinity();
@@ -68,17 +69,17 @@ double depth_within(const Enclosure& four) {
           &opposite = four.c[(i + 3) % 4];
     const Vec3<double> n = unit<double>((q - p).cross(r - p));
     const double side = n.dot(opposite - p) < 0 ? -1 : 1;
-    // Holds for any n: points beyond the nearest of the three corners along n are inside.
+    // Valid for any n: along n, the plane through the lowest of the three corners bounds the depth.
     least = std::min(least, -side * n.dot(p));
     least = std::min({least, -side * n.dot(q), -side * n.dot(r)});
   }
   return least;
 }
 
-/// If the cores nearly touch, the difference of their nearest points has too few digits to give a
-/// direction. So B is moved out along the axis: the plane found there also separates the cores
-/// here, and has a more accurate axis, along which B is moved next; the points can also be used
-/// here.
+/// Improves axis and points of cores that nearly touch. The difference of their nearest points then
+/// has too few digits to give a direction. So B is moved out along the axis, where a search finds a
+/// more accurate axis and points. The axis and points are also valid for B in place, and the next
+/// round moves B out along the new axis.
 void improve_plane(const CorePair& pair, CoreDistance& found) {
   constexpr double stand_offs[] = {1e-3, 1e-3, 1e-5};
   for (const double stand_off : stand_offs) {
@@ -101,8 +102,8 @@ void improve_plane(const CorePair& pair, CoreDistance& found) {
   if (found.lower > 0) found.status = CoreStatus::separated;
 }
 
-/// Finds the points that coincide when B is moved out along the axis until the cores touch: their
-/// nearest points with B moved out further, where they are most accurate.
+/// Finds the contact points: the points that coincide when B is moved out along the axis until the
+/// cores just touch. Moves B out a little further, where the nearest points are more accurate.
 void find_contact(const CorePair& pair, CoreDistance& found) {
   constexpr double stand_off = 1e-3;
   const double apart = stand_off * pair.size();
@@ -114,16 +115,17 @@ void find_contact(const CorePair& pair, CoreDistance& found) {
   found.c = nearest.c - (apart - found.lower) * found.axis;
 }
 
-/// Depth of cores that overlap, or that touch to within rounding.
+/// Computes the depth of cores that overlap, or that touch up to rounding.
 CoreDistance depth_of_cores(const CorePair& pair, Enclosure enclosure, CoreDistance found,
                             const SignedDistanceOptions& options, double gap, bool only_sign) {
-  // For an overlap this slight, points this close to each other are a sufficient result.
+  // If the overlap is this small, two points this close to each other are a good enough result.
   const double slight = gap * (pair.size() + pair.x.norm());
   if (found.status == CoreStatus::overlapping && found.lower >= -slight) {
     if (!(found.c.norm() <= slight / 2)) improve_plane(pair, found);
     if (found.lower <= 0 && found.c.norm() <= slight / 2) return found;
   }
-  // A common point is usually on neither surface.
+  // Points of the distance search, for a separated result. For an overlap, a common point is
+  // usually on neither surface, so it gives no upper bound.
   const Vec3<double> a = found.a, c = found.c;
   const double upper = found.status == CoreStatus::overlapping
                            ? std::numeric_limits<double>::infinity()
@@ -162,9 +164,9 @@ CoreDistance depth_of_cores(const CorePair& pair, Enclosure enclosure, CoreDista
   return found;
 }
 
-/// Improves the direction and the points of a depth with close bounds by Newton's method: until
-/// then their error is the square root of the gap between the bounds. Returns true if they were
-/// found; the bounds hold in any case.
+/// Improves the direction and the points of a depth whose bounds are already close, by Newton's
+/// method. Before that, the error of direction and points is about the square root of the gap
+/// between the bounds. Returns true if the method succeeded; the bounds hold in any case.
 bool sharpen(const CorePair& pair, CoreDistance& found) {
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
   if (!DepthDirection::helps(pair)) return false;
@@ -172,7 +174,8 @@ bool sharpen(const CorePair& pair, CoreDistance& found) {
   using enum CoreKind;
   CoreQuery<other, other> query{pair, search};
   SlidingFeatures<other, other> features(query);
-  // Radii of curvature that differ from the depth by a tenth of the size lean no further.
+  // Largest error of the direction if radii of curvature differ from the depth by a tenth of the
+  // size.
   const double turn =
       std::clamp(4 * std::sqrt((found.upper - found.lower) / pair.size()), 1e-7, 1e-3);
   const bool is_found = features.sharpen(found.axis, turn);
@@ -182,7 +185,7 @@ bool sharpen(const CorePair& pair, CoreDistance& found) {
   const double height = axis.dot(nearest_along(pair, axis).c);
   ++found.supports;
   const double rounded = rounding * (pair.size() + pair.x.norm());
-  if (!(height >= found.lower - rounded)) return false;  // another peak
+  if (!(height >= found.lower - rounded)) return false;  // found another local maximum
   found.lower = height;
   found.upper = std::max(found.upper, height);
   found.axis = axis;
@@ -217,7 +220,7 @@ CoreDistance core_signed_distance(const CorePair& pair, const SignedDistanceOpti
       return true;
     return !overlaps && found.upper - found.lower <= settled_core_gap * size;
   };
-  // A common point proves an overlap if it is deeper than rounding.
+  // A common point proves an overlap if its depth exceeds the rounding errors.
   if (options.only_sign && found.status == CoreStatus::overlapping) {
     const double depth = std::max(depth_within(enclosure), 0.0);
     if (depth + radii > 2 * pair.rounding()) {
@@ -231,7 +234,7 @@ CoreDistance core_signed_distance(const CorePair& pair, const SignedDistanceOpti
     improve_plane(pair, found);
     if (is_settled()) return found;
   }
-  // There is no size of two points at one place.
+  // Two points at the same place have size 0.
   const double reach = pair.size() + pair.x.norm();
   const auto depth_to = [&](double gap_of_depth) {
     return depth_of_cores(

@@ -9,11 +9,11 @@ namespace minkray {
 
 struct SignedDistanceOptions;
 
-/// A query ends at this gap of the bounds, relative to the sizes. Queries with a larger gap go to
-/// branch and bound.
+/// Gap of the bounds, relative to the sizes, at which a query ends. Queries with a larger gap
+/// continue with branch and bound (direction_bounds.h).
 inline constexpr double settled_core_gap = 1e-9;
 
-/// A's kind must not be after B's. `memory` may be null.
+/// Returns the signed distance. A's kind must not be after B's in CoreKind. `memory` may be null.
 CoreDistance core_signed_distance(const CorePair& pair, const SignedDistanceOptions& options,
                                   PairMemory* memory);
 

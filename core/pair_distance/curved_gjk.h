@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Distance of two cores. GJK keeps up to four points of C and adds the support point in the
-// direction d of their closest point to the origin. On curved surfaces GJK converges linearly, so
-// after a few iterations flat ends (flat_ends.h) and sliding features (sliding_features.h) take
-// over. The plane through the support point gives a lower bound, the closest point an upper bound;
-// the loop ends when the bounds meet.
+// Distance of two cores by GJK on C = B - A (core_pair.h). GJK keeps up to four points of C, finds
+// the point of their hull closest to the origin, and adds the support point in that direction d. On
+// curved surfaces GJK converges linearly, so after a few iterations flat ends (flat_ends.h) and
+// sliding features (sliding_features.h) take over. The plane through the support point gives a
+// lower bound, the closest point an upper bound; the loop ends when the bounds meet.
 #pragma once
 
 #include "core/pair_distance/flat_ends.h"
@@ -51,7 +51,7 @@ class CurvedGjk {
       feature_b_[count_] = w.feature_b;
       ++count_;
       const SimplexPoint closest = closest_of_simplex(y_, count_, true);
-      // If the closest point comes no nearer due to rounding, the previous closest point is the
+      // If rounding keeps the closest point from coming nearer, the previous closest point is the
       // result.
       const bool is_nearer = closest.kept != 0 && closest.squared < squared;
       if (!is_nearer && (closest.kept == 0 || ++stalls > 1 || query_.result.lower > 0)) {
@@ -77,10 +77,11 @@ class CurvedGjk {
   }
 
  private:
-  /// Iterations of GJK before features slide: with a separating plane, and without one.
+  /// Number of GJK iterations before sliding features take over: if a separating plane is known,
+  /// and if not.
   static constexpr int turns_apart = 2, turns_near = 6;
-  /// Damping of the first step if the sliding features are from a previous query, relative to the
-  /// size.
+  /// Damping of the first step, relative to the size, if the sliding features come from a previous
+  /// query.
   static constexpr double resumed_damping = 1e-3;
   static constexpr bool any_slides =
       (A == CoreKind::other || slides(A) || slides(B)) || B == CoreKind::other;
@@ -105,13 +106,13 @@ class CurvedGjk {
     count_ = kept;
   }
 
-  /// Continues the search to second order.
+  /// Continues the search with sliding features (second order). Returns true if that gave a result.
   bool slide(const Vec3<double>& d, double damping) {
     SlidingFeatures<A, B> features(query_);
     for (int i = 0; i < count_; ++i) features.add(feature_a_[i], feature_b_[i], weight_[i]);
     if (!features.run(d, damping)) return false;
     if (!query_.search.memory) return true;
-    // Stored features lead back to the nearest points, which overlapping bodies do not have.
+    // Stored features lead back to nearest points, but overlapping bodies have none.
     if (query_.result.status == CoreStatus::overlapping)
       query_.search.memory->count = 0;
     else
@@ -121,8 +122,9 @@ class CurvedGjk {
 
   /// Starts from the final state of the previous query on the pair: the stored features give points
   /// of C at any pose of the bodies. Returns true if the state led to the result; otherwise the
-  /// search continues from d and the kept points. The direction alone is not sufficient: on a
-  /// surface known only by its support mapping, a simplex of such close points has few digits.
+  /// search continues from d and the kept points. Features are needed as well as the direction: on
+  /// a surface known only by its support mapping, a new simplex would consist of points so close to
+  /// each other that its closest point has few digits.
   bool resume(const PairMemory& memory, Vec3<double>& d, double& squared) {
     if (!memory.has_axis()) return false;
     take_features_of(memory);
@@ -131,7 +133,7 @@ class CurvedGjk {
     keep(closest);
     if (closest.is_inside()) {
       finish(CoreStatus::overlapping);
-      // The stored points may lie in a plane; they then enclose the origin only due to rounding.
+      // If the stored points lie in a plane, only rounding makes them enclose the origin.
       constexpr double in_plane = 1e-13;
       if (query_.result.upper <= in_plane * query_.size) return true;
     } else if (count_ > 0) {
@@ -157,7 +159,7 @@ class CurvedGjk {
     return false;
   }
 
-  /// Ignores numbers that are not features of the cores.
+  /// Takes the stored features, except numbers that are no features of these cores.
   void take_features_of(const PairMemory& memory) {
     const Vec3<double> of_b = query_.pair.to_b(-memory.axis);
     for (int i = 0; i < 4 && i < memory.count; ++i) {
@@ -200,8 +202,8 @@ class CurvedGjk {
     return query_.result;
   }
 
-  /// If the cores nearly touch, the closest point has too few digits to give a direction. The
-  /// normal of the face that contains the point has enough digits.
+  /// Uses the normal of the simplex face that contains the closest point as the axis. If the cores
+  /// nearly touch, the closest point itself has too few digits to give a direction.
   void use_face() {
     Vec3<double> n = (y_[1] - y_[0]).cross(y_[2] - y_[0]);
     const double length = n.norm();

@@ -43,7 +43,7 @@ class DepthDirection {
       Candidates near;
       features.around(angle, [&](const DifferencePoint& p) { near.add(p); });
       if (try_triples(near, furthest, enclosure, is_sure)) return true;
-      // At an edge or a corner of C the other points are further away.
+      // At an edge or a corner of C, other points that are needed are further away.
       Candidates all;
       for (std::size_t i = 0; i < std::min<std::size_t>(near.count, 6); ++i)
         all.add(near.points[i]);
@@ -99,8 +99,8 @@ class DepthDirection {
     return false;
   }
 
-  /// Tries three near points with the furthest point. Projected along the latter, the three must
-  /// enclose the origin.
+  /// Tries all triples of near points together with the furthest point. The three points, projected
+  /// along the furthest point's direction, must enclose the origin.
   template <class IsSure>
   static bool try_triples(const Candidates& near, const DifferencePoint& furthest,
                           Enclosure& enclosure, const IsSure& is_sure) {

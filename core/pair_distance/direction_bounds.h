@@ -8,14 +8,15 @@
 namespace minkray {
 
 struct DirectionSearch {
-  double gap = 1e-10;        ///< upper - lower, relative to the size
+  double gap = 1e-10;        ///< the search ends at this upper - lower, relative to the size
   int max_supports = 50000;  ///< at this limit the search ends with the bounds reached so far
-  /// Ends as soon as the sign is known.
+  /// If true, the search ends as soon as the sign of the distance is proven.
   bool only_sign = false;
 };
 
-/// Starts from `known.lower` and `known.axis`. `upper` may be negative: minus the penetration
-/// depth. Sets `is_exhausted` if the bounds are further apart than requested; does not set a and c.
+/// Starts from `known.lower` and `known.axis`. For an overlap, `upper` is negative: minus the
+/// penetration depth. Sets `is_exhausted` if the bounds are further apart than requested; does not
+/// set a and c.
 ///
 /// The signed distance is the maximum over all unit vectors n of g(n) = min n.c over c of C. Any n
 /// gives a lower bound. For an upper bound the sphere of directions is cut into triangles. With the

@@ -46,8 +46,8 @@ struct DirectionSample {
   PlainVector n, c;
 };
 
-/// All directions between three corners, and the support points that bound g there: those of the
-/// corners, and those of the directions where the bound was largest.
+/// All directions between three corners, and the support points that bound g there: support points
+/// in the corners, and in directions where the bound was largest.
 struct DirectionCell {
   static constexpr int most_points = 8;
   std::array<DirectionSample, 3> corners;  ///< counter-clockwise from outside
@@ -68,7 +68,7 @@ struct DirectionCell {
     return longest;
   }
   double length() const { return std::sqrt(squared_side(longest_side())); }
-  /// Adds the point. Returns true if it is new.
+  /// Adds a point. Returns true if the cell did not have the point yet.
   bool add_point(const PlainVector& c) {
     for (int i = 0; i < count; ++i)
       if (point(i) == c) return false;
@@ -91,7 +91,7 @@ class DirectionCellBound {
     take_points();
   }
 
-  /// Takes the points that were added to the cell since the last call.
+  /// Takes into account the points that were added to the cell since the last call.
   void take_points() {
     for (; taken_ < cell_.count; ++taken_) {
       const PlainVector& p = cell_.point(taken_);

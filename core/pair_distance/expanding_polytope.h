@@ -37,8 +37,8 @@ class ExpandingPolytope {
     if (!start(c, a)) return false;
     while (found_.supports < most_supports) {
       const int nearest = pop();
-      // Faces that are further away than the depth can be are not in the heap: none of them is the
-      // nearest.
+      // The heap does not contain faces further away than the upper bound of the depth: none of
+      // these can be the nearest.
       const bool is_none = nearest < 0 || faces_[nearest].d >= -found_.lower;
       found_.upper = is_none ? found_.lower : -faces_[nearest].d;
       if (is_none) return finish(found_.lower, found_.axis);
@@ -150,7 +150,7 @@ class ExpandingPolytope {
       face.d = std::min({face.n.dot(y_[i]), face.n.dot(y_[j]), face.n.dot(y_[k])});
       if (!(face.d > 0)) return -1;
     }
-    // Leaves out faces that are further away than the depth can be.
+    // Leaves out faces further away than the upper bound of the depth.
     if (face.d >= -found_.lower) return index;
     if (heaped_ == most_heaped) return -1;
     heap_[heaped_++] = {face.d, index};
@@ -158,7 +158,8 @@ class ExpandingPolytope {
     return index;
   }
 
-  /// Returns the face nearest to the origin; negative if none is nearer than the depth can be.
+  /// Returns the face nearest to the origin; negative if no face is nearer than the upper bound of
+  /// the depth.
   int pop() {
     while (heaped_ > 0) {
       const Heaped top = heap_[0];
@@ -237,7 +238,7 @@ class ExpandingPolytope {
     for (int f = 0; f < face_count_; ++f) {
       const Face& face = faces_[f];
       if (!face.is_there) continue;
-      // Distance of the face after B has moved deeper along the axis.
+      // Distance of the face if B were deeper along the axis by `way` (deeper_by).
       if (!(face.d - way * face.n.dot(axis) >= all_but_leaning)) found_.has_one_direction = false;
       if (!(face.d <= -height + gap_ + in_plane * size_)) continue;
       const Vec3<double> corners[3] = {y_[face.corner[0]] - foot, y_[face.corner[1]] - foot,

@@ -8,8 +8,8 @@
 namespace minkray {
 namespace detail {
 
-/// Tries the axis of a flat end as the normal. This is the result if the other core's nearest point
-/// is above the disk.
+/// Tries the axis of a flat end as the normal. Succeeds if the other core's nearest point is
+/// straight above the disk.
 template <CoreKind Other, CoreKind A, CoreKind B>
 bool flat_end(CoreQuery<A, B>& query, const ShapeCore& disks, const ShapeCore& other,
               const Mat3<double>& to_other, const Vec3<double>& d, bool is_of_a) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Up to four contact points of two shapes; with a single point, a resting box would tip over.
-// Support points in directions tilted slightly from the normal are the corners of each shape's part
-// that faces the other shape. The two polygons, projected along the normal, are clipped (I.
-// Sutherland, G. Hodgman, "Reentrant Polygon Clipping", 1974). At most four corners with the
-// largest area are kept.
+// Contact manifold: up to four contact points of two shapes. With only one point, a resting box
+// would tip over. Support points in directions tilted slightly from the normal are the corners of
+// each shape's part that faces the other shape. The two polygons, projected along the normal, are
+// clipped (I. Sutherland, G. Hodgman, "Reentrant Polygon Clipping", 1974). At most four corners
+// with the largest area are kept.
 #pragma once
 
 #include <array>
@@ -20,19 +20,20 @@ struct ContactPoint {
 };
 
 struct ContactManifold {
-  Vec3<double> normal = Vec3<double>::Zero();  ///< from A to B; the normal of the signed distance
-  std::array<ContactPoint, 4> points;          ///< the first has the points of the signed distance
+  Vec3<double> normal = Vec3<double>::Zero();  ///< from A to B; the signed distance's normal
+  std::array<ContactPoint, 4> points;  ///< points[0] has the nearest points of the signed distance
   int count = 0;
 };
 
 struct ManifoldOptions {
-  double tilt = 0.02;  ///< radians; at larger angles between two faces only edges or corners touch
+  double tilt = 0.02;  ///< in radians; faces at larger angles touch only at edges or corners
   /// Omits pairs of points whose distance exceeds that of the nearest pair by more than this times
   /// the size of the smaller shape.
   double within = 0.02;
 };
 
-/// `nearest` is the signed distance of the two shapes. Returns no points if it is unknown.
+/// Returns the contact points. `nearest` must be the signed distance of the two shapes; if it is
+/// unknown, there are no points.
 ContactManifold contact_manifold(const ContactShape& a, const Affine<double>& pose_a,
                                  const ContactShape& b, const Affine<double>& pose_b,
                                  const SignedDistance& nearest,

@@ -15,9 +15,9 @@ namespace minkray {
 
 enum class SignedStatus : unsigned char {
   separated,    ///< lower > 0
-  touching,     ///< 0 is between the bounds, which differ by at most 1e-9 bounding radii
+  touching,     ///< 0 is between the bounds, which differ by at most 1e-9 of the sizes' sum
   overlapping,  ///< upper < 0
-  undecided,    ///< 0 is between the bounds, which differ by more
+  undecided,    ///< 0 is between the bounds, which differ by more than for `touching`
 };
 
 constexpr std::string_view name_of(SignedStatus status) {
@@ -36,7 +36,7 @@ constexpr std::string_view name_of(SignedStatus status) {
 
 struct SignedDistance {
   SignedStatus status = SignedStatus::undecided;
-  double value = 0;  ///< in [lower, upper], which include rounding; see is_unknown()
+  double value = 0;  ///< in [lower, upper]; the bounds include rounding errors. See is_unknown()
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
   /// Nearest points of A and B in the world. For an overlap: the points where the shapes just touch
@@ -52,12 +52,13 @@ struct SignedDistance {
   /// Set if the limit of support points was reached: the bounds hold, but are not within the
   /// tolerance.
   bool is_exhausted = false;
-  /// True if the cores overlap and the direction of their penetration depth is proven to be unique.
-  /// False: not known. A shape is its core grown by a radius.
+  /// A shape is its core, such as a capsule's segment, grown by a radius. True if the two cores
+  /// overlap, and the direction of their penetration depth is proven to be unique. False if that
+  /// was not proven or not tested.
   bool has_one_direction = false;
 
-  /// True if the search failed: the shapes may or may not overlap, and the distance has no upper
-  /// bound. `value` is then no distance, and there are no points.
+  /// True if the search failed: the shapes may or may not overlap, and there is no upper bound.
+  /// Then `value` and the points are meaningless.
   bool is_unknown() const {
     return status == SignedStatus::undecided && !(upper < std::numeric_limits<double>::infinity());
   }
@@ -70,22 +71,24 @@ struct SignedDistanceOptions {
   /// Distance beyond which a lower bound is enough: `upper` may then be infinite, and `value`
   /// equals `lower`.
   double at_most = std::numeric_limits<double>::infinity();
-  /// Only decides if the shapes overlap, without a depth. `lower` is then -infinity, or a bound
-  /// that the search happened to find.
+  /// Only decides if the shapes overlap, without computing the depth. If they do, `lower` is
+  /// -infinity, or any bound that the search happened to find.
   bool only_sign = false;
-  /// Maximum number of support points for branch and bound, which runs if all other methods fail.
-  /// Contact points need some tens more. If all directions are equally good, no limit suffices for
-  /// ten digits: for example, a point inside a ball that is known only by its support mapping.
+  /// Maximum number of support points for branch and bound, the last method, which runs if all
+  /// others fail. The contact points then cost some tens of support points more. If all directions
+  /// are equally good, no limit is large enough for ten digits: for example, a point at the centre
+  /// of a ball that is known only by its support mapping.
   int max_supports = 50000;
-  /// Also makes the normal and the points of curved shapes accurate to about 1e-9, as derivatives
-  /// require. Costs less than an equally small `tolerance`.
+  /// Also makes the normal and the points of curved shapes accurate to about 1e-9, which
+  /// derivatives of the distance need. Costs less than a `tolerance` that has the same effect.
   bool is_for_derivatives = false;
 };
 
-/// The poses must be rigid. The bounds include all rounding errors: 16 machine epsilons of the
-/// shapes' sizes plus the distance of their middles, at any distance from the world's origin. If a
-/// shape's middle is not the origin of its own frame, the rounding of the middle's position is
-/// added.
+/// Returns the signed distance of A and B. The poses must be rigid. The bounds include all rounding
+/// errors: 16 machine epsilons times the sum of the shapes' sizes and the distance of their middles
+/// (a middle is the centre of a shape's core). This holds however far the shapes are from the
+/// world's origin. If a middle is not the origin of the shape's own frame, the rounding of the
+/// middle's position is added.
 SignedDistance signed_distance(const ContactShape& a, const Affine<double>& pose_a,
                                const ContactShape& b, const Affine<double>& pose_b,
                                const SignedDistanceOptions& options = {});
@@ -98,15 +101,15 @@ SignedDistance signed_distance(const ContactShape& a, const Affine<double>& pose
                                const ContactShape& b, const Affine<double>& pose_b,
                                PairMemory& memory, const SignedDistanceOptions& options = {});
 
-/// For relative placement: `linear_a` and `linear_b` rotate from each body's frame to a common
-/// frame; `between` is the vector from A's middle to B's in that frame. Returned points are
+/// Variant for a relative placement: `linear_a` and `linear_b` rotate from each body's frame to a
+/// common frame; `between` is the vector from A's middle to B's in that frame. Returned points are
 /// relative to A's middle. `memory` may be null.
 SignedDistance signed_distance(const ContactShape& a, const Mat3<double>& linear_a,
                                const ContactShape& b, const Mat3<double>& linear_b,
                                const Between& between, const SignedDistanceOptions& options,
                                PairMemory* memory);
 
-/// Takes shapes that are already in the world's frame.
+/// Variant for shapes that are already in the world's frame.
 SignedDistance signed_distance(const ContactShape& a, const ContactShape& b,
                                const SignedDistanceOptions& options = {});
 

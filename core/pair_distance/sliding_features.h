@@ -18,8 +18,8 @@ class SlidingFeatures {
  public:
   explicit SlidingFeatures(CoreQuery<A, B>& query) : query_(query) {}
 
-  /// Adds a point of GJK's simplex by the features that it lies on; points on the same features
-  /// count as one.
+  /// Adds a point of GJK's simplex, given by the features of A and B that it lies on. Points on the
+  /// same two features are merged.
   void add(int feature_a, int feature_b, double weight) {
     for (int i = 0; i < count_; ++i)
       if (feature_a_[i] == feature_a && feature_b_[i] == feature_b) {
@@ -29,8 +29,8 @@ class SlidingFeatures {
     append(feature_a, feature_b, weight);
   }
 
-  /// Searches from the direction d. `damping` is that of the first step, relative to the size;
-  /// pairs of a face and a rim need damping. Returns true if a result was found.
+  /// Searches from the direction d. `damping` (relative to the size) is the damping of the first
+  /// step, which pairs of a face and a rim need. Returns true if a result was found.
   bool run(const Vec3<double>& d, double damping);
 
   /// Finds the direction near d with the largest gap of overlapping cores, to about 1e-7: a local
@@ -65,7 +65,7 @@ class SlidingFeatures {
 
   static constexpr double first_damping = 0.1;
 
-  /// Stores the features with nonzero weights in the closest point.
+  /// Stores the features of the closest point (those with nonzero weights) in `memory`.
   void remember(PairMemory& memory) const {
     memory.count = count_;
     std::copy(feature_a_, feature_a_ + count_, memory.feature_a);
@@ -106,7 +106,7 @@ class SlidingFeatures {
     weight_[count_++] = weight;
   }
 
-  /// Keeps the features with nonzero weights in the closest point.
+  /// Removes the features that have weight 0 in the closest point.
   void keep(const SimplexPoint& closest) {
     int kept = 0;
     for (int i = 0; i < std::min(count_, 4); ++i) {

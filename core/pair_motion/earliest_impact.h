@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds the first of many times of impact.
+// Merges the times of impact of one body with many others into the earliest one.
 #pragma once
 
 #include "core/pair_motion/impact.h"
@@ -7,14 +7,14 @@
 namespace minkray {
 
 struct EarliestImpact {
-  /// `t_lo` is before all contacts. All other members are those of one body: the body that is
-  /// touched first; without contact, a body whose time is unknown or a body that is missed.
+  /// `t_lo` is before the contacts with all bodies. All other members are the result for one body:
+  /// the body touched first; if there is no contact, a body whose result is undecided or a miss.
   Impact impact;
   std::size_t body = none;
   static constexpr std::size_t none = ~std::size_t{0};
 };
 
-/// Result for no contact up to t_max.
+/// Returns the result for no contact up to t_max.
 inline EarliestImpact nothing_met(double t_max) {
   EarliestImpact found;
   found.impact.status = ImpactStatus::miss;
@@ -23,7 +23,8 @@ inline EarliestImpact nothing_met(double t_max) {
   return found;
 }
 
-/// Merges a body's result into `found`. The result must cover the times up to found.impact.t_hi.
+/// Merges the result for one body into `found`. The body must have been tested at least up to
+/// found.impact.t_hi.
 inline void take(EarliestImpact& found, std::size_t body, const Impact& impact) {
   if (impact.status == ImpactStatus::miss) return;
   const double t_lo = std::min(found.impact.t_lo, impact.t_lo);

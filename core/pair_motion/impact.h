@@ -41,28 +41,28 @@ constexpr std::string_view name_of(ImpactStatus status) {
 
 struct Impact {
   ImpactStatus status = ImpactStatus::undecided;
-  double t_lo = 0;  ///< no contact before this, except at 0 if the bodies touch and part there
-  double t_hi = std::numeric_limits<double>::infinity();  ///< the bodies touch or overlap here
+  double t_lo = 0;  ///< no contact before t_lo, except at 0 if the bodies touch and part there
+  double t_hi = std::numeric_limits<double>::infinity();  ///< at t_hi the bodies touch or overlap
   /// Nearest points and normal from A to B at t_lo (for a miss: at t_max), in the world.
   Vec3<double> point_a = Vec3<double>::Zero();
   Vec3<double> point_b = Vec3<double>::Zero();
   Vec3<double> normal = Vec3<double>::Zero();
-  double distance = 0;  ///< of the bodies at t_lo; infinite if unknown, and then without points
+  double distance = 0;  ///< of the bodies at t_lo; if unknown, infinite, and the points are not set
   int steps = 0;        ///< number of distance queries
 };
 
 struct ImpactOptions {
-  /// Bodies nearer to each other than this times the sum of their sizes count as touching, so
-  /// bodies that pass each other more closely are a hit. A reported miss is always a miss.
+  /// Distance, relative to the sum of the sizes, below which bodies count as touching. Bodies that
+  /// pass each other more closely may be reported as a hit, but a reported miss is always a miss.
   double touching = 1e-10;
   int max_steps = 2000;
-  /// Compute the nearest points at t_max for misses; the normal is always set.
+  /// True to compute the nearest points at t_max for a miss. The normal is always set.
   bool points_of_misses = true;
 };
 
-/// Finds the first contact of A and B at times from 0 to t_max. Bodies that touch at time 0 (within
-/// `touching`) are `inside` if they approach each other at the contact, or rest. If they part, the
-/// search continues with the next contact.
+/// Finds the first contact of A and B at times from 0 to t_max. If bodies touch at time 0 (within
+/// `touching`) and do not part, the status is `inside`. If they part, the search continues with the
+/// next contact.
 ///
 /// Each step starts at a time at which the bodies are apart, and fixes a plane between them. While
 /// a body turns by an angle theta, its extent along the plane's normal n is h(n(tau)). Here h is

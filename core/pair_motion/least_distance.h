@@ -14,16 +14,16 @@ class MovingPair {
  public:
   virtual ~MovingPair() = default;
 
-  /// Signed distance at s; above `at_most` a lower bound is enough.
+  /// Returns the signed distance at s. If it is above `at_most`, a lower bound is enough.
   virtual SignedDistance at(double s, double at_most) const = 0;
-  /// Lower bound of the gap along n at s, tight up to rounding. `n` and `at(s).normal` are in the
-  /// frame in which the bounds below hold.
+  /// Returns a lower bound of the gap along n at s, tight up to rounding. `n` and `at(s).normal`
+  /// must be in the frame in which `speed` and `acceleration` are bounds.
   virtual double gap(const Vec3<double>& n, double s) const = 0;
 
   double size = 0;          ///< sum of the bodies' sizes; tolerances are relative to this sum
-  double speed = 0;         ///< bound of the relative speed of a point of B and a point of A
-  double acceleration = 0;  ///< bound of the relative acceleration of such points
-  /// Lower bound of all distances: 0 for pairs without depth.
+  double speed = 0;         ///< bound of the speed of any point of B relative to any point of A
+  double acceleration = 0;  ///< bound of the acceleration of such points relative to each other
+  /// Lower bound of all distances: 0 for pairs whose distance is never negative.
   double least = -std::numeric_limits<double>::infinity();
 };
 
@@ -32,15 +32,15 @@ struct LeastDistanceOptions {
   /// distance.
   double gap = 0;
   double relative_gap = 0;
-  /// The search also ends when the distance is proven to be at least this minus the gap.
+  /// The search also ends when the least distance is proven to be at least `enough` minus the gap.
   double enough = std::numeric_limits<double>::infinity();
   int max_distances = 20000;
 };
 
 struct LeastDistance {
-  double lower = -std::numeric_limits<double>::infinity();  ///< over all of [0, 1]
+  double lower = -std::numeric_limits<double>::infinity();  ///< bound for all s in [0, 1]
   double upper = std::numeric_limits<double>::infinity();   ///< upper bound of `there`
-  double s = 0;  ///< parameter of the least distance found
+  double s = 0;                                             ///< s of the least distance found
   SignedDistance there;
   int distances = 0;  ///< number of queries
   bool is_settled = false;
@@ -59,7 +59,8 @@ struct LeastDistance {
 /// The interval with the least bound is halved until the bound is near the least distance found.
 LeastDistance least_distance(const MovingPair& pair, const LeastDistanceOptions& options);
 
-/// Lower bound of the gap of two shapes along a unit vector n of the world, tight up to rounding.
+/// Returns a lower bound of the gap of two shapes along a unit vector n in the world, tight up to
+/// rounding.
 double gap_along(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                  const Affine<double>& pose_b, const Vec3<double>& n);
 double gap_along(const ContactShape& a, const Mat3<double>& linear_a, const ContactShape& b,

@@ -17,8 +17,8 @@ class SlidingPortal {
  public:
   explicit SlidingPortal(SweptQuery<A, B>& query) : query_(query) {}
 
-  /// Adds a point of the portal by the features that it lies on; points on the same features count
-  /// as one.
+  /// Adds a point of the portal, given by the features of A and B that it lies on. Points on the
+  /// same two features are merged.
   void add(int feature_a, int feature_b, double weight) {
     for (int i = 0; i < count_; ++i)
       if (feature_a_[i] == feature_a && feature_b_[i] == feature_b) {
@@ -32,7 +32,7 @@ class SlidingPortal {
   /// the query.
   bool run(const Vec3<double>& n) {
     Vec3<double> nd = n / -n.dot(query_.along);
-    double damping = 0.1;  // of the first step, in sizes: pairs of a face and a rim need it
+    double damping = 0.1;  // relative to the size; pairs of a face and a rim need it
     for (int step = 0; step < most_turns; ++step, damping = step < 7 ? damping * 0.1 : 0) {
       const SweptPoint w = query_.support(nd);
       if (query_.judge(nd, w)) return true;
@@ -87,7 +87,8 @@ class SlidingPortal {
     S.add(-k / (length * length), nd);
   }
 
-  /// True above a flat end, where the support point jumps: only the portal can continue there.
+  /// True if nd is the normal of a flat end, above which the support point jumps. Then only the
+  /// portal can continue.
   bool is_along_an_end(const Vec3<double>& nd) const {
     constexpr double flat = 1e-6;
     const auto is_along = [](const ShapeCore& core, const Vec3<double>& d) {
@@ -160,8 +161,8 @@ class SlidingPortal {
     return least < std::numeric_limits<double>::infinity();
   }
 
-  /// Called at the best normal. Three points in nearby directions prove an upper bound of the time
-  /// if their projections enclose the origin.
+  /// Tries to prove an upper bound of the time at the best normal nd, by three support points in
+  /// nearby directions whose projections enclose the origin.
   bool surround(const Vec3<double>& nd, const SweptPoint* z) {
     const double length = nd.norm();
     double turn = 3e-6 * length;

@@ -10,17 +10,17 @@
 
 namespace minkray {
 
-/// Contains the shape at all times from 0 to 1 if no point of it accelerates by more than
-/// `acceleration`. Poses may be any invertible maps.
+/// Returns a shape that contains the given shape at all times from 0 to 1, if none of its points
+/// accelerates by more than `acceleration`. Poses may be any invertible maps.
 Shape swept(const Shape& shape, const Affine<double>& from, const Affine<double>& to,
             double acceleration);
 
-/// The motion is as in RigidMotion: the origin of the shape's frame moves along a line, and the
+/// Same for a motion as in RigidMotion: the origin of the shape's frame moves along a line, and the
 /// shape turns about this origin at a constant rate, by the smaller angle. Poses must be rigid.
 Shape swept(const Shape& shape, const Affine<double>& from, const Affine<double>& to);
 
-/// Upper bound of the distance of the shape's points from the line through the origin along the
-/// unit vector `axis`; at most 1 % too large.
+/// Returns an upper bound, at most 1 % too large, of the distance of the shape's points from the
+/// line through the origin along the unit vector `axis`.
 double distance_from_axis(const Shape& shape, const Vec3<double>& axis);
 
 }  // namespace minkray

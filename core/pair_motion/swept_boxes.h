@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
-// First contact of a box that moves without turning and a box at rest. C is the intersection of 15
-// slabs, each between two parallel planes (S. Gottschalk et al., "OBBTree", 1996); a ray is in C
-// while it is in all slabs.
+// First contact of a box that moves without turning and a box at rest. C = B - A (core_pair.h) is
+// the intersection of 15 slabs, each between two parallel planes (S. Gottschalk et al., "OBBTree",
+// 1996); a ray is in C while it is in all slabs.
 #pragma once
 
 #include "core/pair_motion/swept_query.h"
 
 namespace minkray {
 
-/// Takes the arguments of SweptPortal (swept_portal.h). Returns `open` in some cases: contact at
-/// the start, grazing contact, and contact of edges or faces in one plane.
+/// Returns the time of impact. For the parameters see SweptPortal (swept_portal.h). Returns `open`
+/// if the boxes touch at the start, only graze each other, or touch with edges or faces in one
+/// plane.
 SweptTime swept_boxes(const CorePair& pair, const Vec3<double>& velocity, double t_max,
                       double near);
 

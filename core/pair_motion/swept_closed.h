@@ -8,11 +8,12 @@
 
 namespace minkray {
 
-/// True for points and segments, and for points and boxes, cylinders, cones or disks. A's kind must
-/// not be after B's.
+/// True if swept_closed() supports the pair: points and segments, or a point and a box, cylinder,
+/// cone or disk. A's kind must not be after B's in CoreKind.
 bool has_swept_closed(const CorePair& pair);
 
-/// Takes the arguments of SweptPortal (swept_portal.h). Returns `open` in some cases.
+/// Returns the time of impact. For the parameters see SweptPortal (swept_portal.h). Returns `open`
+/// if it cannot decide.
 SweptTime swept_closed(const CorePair& pair, const Vec3<double>& velocity, double t_max,
                        double near);
 

@@ -22,7 +22,7 @@ class SweptPortal {
                  (slides(pair.a.kind) || slides(pair.b.kind) || query_.radius > 0);
   }
 
-  /// If `memory` is not null, the stored plane is tried first.
+  /// Runs the search. If `memory` is not null, tries the stored plane first.
   SweptTime run(const PairMemory* memory) {
     if (!(query_.speed > 0) || query_.passes_by()) return query_.result;
     if (memory && memory->has_axis()) {
@@ -35,10 +35,11 @@ class SweptPortal {
 
  private:
   static constexpr int most_turns = 200;
-  /// Iterations of the portal before features slide.
+  /// Number of portal iterations before sliding features take over.
   static constexpr int turns_plain = 3;
 
-  /// Finds three points whose projections enclose the origin. False: a miss, or undecided.
+  /// Finds three points whose projections enclose the origin. Returns false for a miss, or if
+  /// undecided.
   bool surround() {
     double dp = portal_[0].p, dq = portal_[0].q;
     int count = 1;
@@ -82,7 +83,8 @@ class SweptPortal {
     return false;
   }
 
-  /// Twice the signed area of the triangle of the origin and two points' projections.
+  /// Twice the signed area of the triangle formed by the origin and the projections of points i and
+  /// j.
   double side(int i, int j) const { return cross(portal_[i], portal_[j]); }
 
   /// Moves the portal outwards until both bounds meet. Always returns true.
@@ -105,7 +107,7 @@ class SweptPortal {
       const SweptPoint w = query_.support(n);
       if (query_.judge(n, w)) return true;
       if (query_.has_met()) return query_.end_hit();
-      // The new point divides the triangle into three; keeps the one that contains the origin.
+      // The new point divides the triangle into three; this keeps the one that contains the origin.
       const double sign = area < 0 ? -1 : 1, at0 = sign * cross(portal_[0], w),
                    at1 = sign * cross(portal_[1], w), at2 = sign * cross(portal_[2], w);
       if (at0 <= 0 && at1 >= 0)

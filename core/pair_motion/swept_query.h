@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A search for a time of impact: two cores, B in motion without turning, and the bounds proven so
-// far. The points include the radii: C is grown by both radii.
+// State of a search for a time of impact: two cores, B moving without turning, and the bounds
+// proven so far. C = B - A (core_pair.h) is grown by both radii here.
 #pragma once
 
 #include <algorithm>
@@ -18,14 +18,15 @@ enum class SweptStatus : unsigned char {
 /// Result of the search, in A's frame.
 struct SweptTime {
   SweptStatus status = SweptStatus::open;
-  double t_lo = -std::numeric_limits<double>::infinity();  ///< no contact before this
-  double t_hi = std::numeric_limits<double>::infinity();   ///< the cores touch or overlap here
+  double t_lo = -std::numeric_limits<double>::infinity();  ///< no contact before t_lo
+  double t_hi = std::numeric_limits<double>::infinity();   ///< at t_hi the cores touch or overlap
   Vec3<double> axis = Vec3<double>::Zero();                ///< unit normal of the separating plane
   Vec3<double> a = Vec3<double>::Zero();  ///< a point of A that is also a point of B at t_hi
   int supports = 0;
 };
 
-/// A point y = b - a of C, its projection p e0 + q e1 along the motion, and its height h along it.
+/// A point y = b - a of C: its projection p e0 + q e1 along the motion, and its height h along the
+/// motion.
 struct SweptPoint {
   Vec3<double> y, a;
   double p, q, h;
@@ -66,7 +67,8 @@ struct SweptQuery {
     const Vec3<double> n = d / d.norm();
     return in_shadow(c - radius * n, a + pair.a.radius * n, of_a, of_b);
   }
-  /// Points of the given features, which need not be the support points.
+  /// Returns the furthest point of the given features along d, which need not be the support point
+  /// of C.
   SweptPoint on_features(int of_a, int of_b, const Vec3<double>& d) const {
     const Vec3<double> a = point_of_feature<A>(pair.a, of_a, d),
                        b = point_of_feature<B>(pair.b, of_b, pair.to_b(-d));
@@ -77,13 +79,13 @@ struct SweptQuery {
     result.status = status;
     result.axis = unit<double>(axis);
   }
-  /// Returns true.
+  /// Ends the search with a hit. Returns true, so that callers can return it.
   bool end_hit() {
     result.status = SweptStatus::hit;
     return true;
   }
 
-  /// True (a miss) if the bounding balls miss each other by more than rounding.
+  /// True if the bounding balls miss each other by more than rounding, which proves a miss.
   bool passes_by() {
     const double towards = pair.x.dot(along);
     const Vec3<double> aside = pair.x - towards * along;
@@ -115,12 +117,12 @@ struct SweptQuery {
     return false;
   }
 
-  /// Uses the time at which the origin is in the triangle's plane as an upper bound, if the origin
-  /// is then inside the triangle. Returns true if so.
+  /// Tests if the origin is inside the triangle at the time at which the origin is in the
+  /// triangle's plane. If so, takes this time as an upper bound and returns true.
   bool pierce(const SweptPoint& r, const SweptPoint& s, const SweptPoint& t) {
     const double at_r = cross(s, t), at_s = cross(t, r), at_t = cross(r, s),
                  area = at_r + at_s + at_t, sign = area < 0 ? -1 : 1;
-    // In thinner slivers, rounding moves the sides too far.
+    // Triangles thinner than this are ignored: rounding moves their sides too far.
     constexpr double sliver = 1e-10;
     const double reach = std::max({std::abs(r.p) + std::abs(r.q), std::abs(s.p) + std::abs(s.q),
                                    std::abs(t.p) + std::abs(t.q)});

@@ -7,7 +7,8 @@
 
 namespace minkray {
 
-/// Takes the arguments of SweptPortal (swept_portal.h). `memory` may be null.
+/// Returns the time of impact. For the parameters see SweptPortal (swept_portal.h). `memory` may be
+/// null.
 SweptTime swept_time(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near,
                      PairMemory* memory);
 

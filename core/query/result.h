@@ -12,7 +12,7 @@ enum class Status : unsigned char {
   hit,        ///< the ray enters the shape at t > 0
   miss,       ///< no point of the ray with 0 <= t <= t_max lies in the shape; proven by a plane
   inside,     ///< the ray's origin lies in the shape: t = 0
-  exhausted,  ///< the solver did not converge: neither a hit nor a miss is claimed
+  exhausted,  ///< the solver did not converge; the ray may hit or miss
 };
 
 constexpr std::string_view name_of(Status status) {
@@ -59,17 +59,18 @@ struct CastResult {
   Status status = Status::exhausted;
   Path path = Path::model;
 
-  /// The hit parameter is t_base + t_offset: t_base is that of the ray's closest approach to the
-  /// shape's centre, and t_offset is relative to t_base. The two are stored separately since, for a
-  /// far origin, their rounded sum no longer locates the hit on the shape.
+  /// The hit parameter t is t_base + t_offset. t_base is the parameter of the ray's point closest
+  /// to the shape's centre; t_offset is the rest. The two are stored separately since, for a far
+  /// origin, their rounded sum no longer locates the hit on the shape.
   T t_base = T(0);
   T t_offset = T(0);
 
-  /// The hit parameter lies in t_base + [offset_lo, offset_hi], for the shape at its prepared pose.
-  /// On the path `filter` the interval is the closed form's error bound. Otherwise the lower end
-  /// comes from a supporting plane, and the upper end from support points that the ray passes
-  /// between; both include rounding. The upper end is infinite if there are no such points, for
-  /// example if the ray passes an edge within rounding, and for solvers that are requested by name.
+  /// Bounds of the hit parameter: t_base + offset_lo and t_base + offset_hi, for the shape at its
+  /// prepared pose. On the path `filter` the bounds are the closed form's error bound. Otherwise
+  /// the lower bound comes from a supporting plane, and the upper bound from support points that
+  /// the ray passes between; both include rounding. The upper bound is infinite if no such points
+  /// were found, for example if the ray passes within rounding of an edge, and for a solver chosen
+  /// by name.
   T offset_lo = T(0);
   T offset_hi = std::numeric_limits<T>::infinity();
 
@@ -78,7 +79,7 @@ struct CastResult {
   Vec3<T> normal = Vec3<T>::Zero();
 
   int iterations = 0;
-  int supports = 0;  ///< support points of the search, not counting those for the upper end
+  int supports = 0;  ///< support points of the search, not counting those for the upper bound
 
   T t() const { return t_base + t_offset; }
   bool found() const { return status == Status::hit || status == Status::inside; }

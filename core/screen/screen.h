@@ -18,7 +18,7 @@ namespace minkray {
 
 inline constexpr int screen_lanes = 8;
 
-/// The numbers of an exact::Form for a lane.
+/// The numbers of an exact::Form as floats, for one lane.
 struct alignas(64) ScreenForm {
   std::array<float, 4> sizes = {};
   float slope = 0, sine = 0, R = 0;
@@ -36,17 +36,18 @@ struct alignas(64) ScreenForm {
 /// shape.
 struct Screen {
   ScreenForm form;
-  FormKind kind = FormKind::none;  ///< none: lanes cannot screen it
-  bool is_whole = false;           ///< the form equals the shape; false: a box around the shape
-  /// Five floats per plane of a polytope: normal, offset, depth.
+  FormKind kind = FormKind::none;  ///< none: the definition cannot be screened in lanes
+  bool is_whole = false;  ///< true: `form` is the shape's own form; false: a box around the shape
+  /// Planes of a polytope, five floats each: normal (3), offset, depth (by which corners of the
+  /// face may be below the plane).
   std::shared_ptr<const std::vector<float>> planes = {};
 };
 
-/// Number of kinds of forms that lanes support.
+/// Number of values of FormKind.
 inline constexpr std::size_t form_kinds = static_cast<std::size_t>(FormKind::polytope) + 1;
 
-/// Makes the screen of a definition. `centre` is that of the inner ball, in the frame to which
-/// InstancePlace maps.
+/// Makes the screening data of a definition. `centre` is the centre of the inner ball, in the frame
+/// to which InstancePlace maps.
 Screen screen_of(const ShapeDefinition& definition, const Vec3<double>& centre);
 
 /// Bounds of the hit's parameter in each lane. `first` is infinite if the ray certainly misses, for
@@ -55,16 +56,16 @@ struct alignas(32) Screened {
   std::array<float, screen_lanes> first, last;
 };
 
-/// Rays and instances' poses; pairs refer to them by index.
+/// Arrays of rays and instances. Pairs to screen are given as indices into these arrays.
 struct ScreenList {
   const char* rays;    ///< Ray<double>
   std::size_t stride;  ///< distance between rays in bytes
   const InstancePlace* places;
-  const Screen* screens;  ///< by body
-  const float* limits;    ///< by ray: hits beyond are ignored
+  const Screen* screens;  ///< indexed by body
+  const float* limits;    ///< indexed by ray: hits at larger t are ignored
 };
 
-/// One bit per lane: lanes that may hit up to their limit, and lanes that certainly do.
+/// One bit per lane. `open`: the lane may hit up to its limit. `sure`: the lane certainly hits.
 struct ScreenBits {
   std::uint32_t open, sure;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A shape whose support mapping is a function of the calling program. Files cannot contain such
-// shapes.
+// A shape defined by a support mapping that the calling program supplies as a function. Scene files
+// cannot contain such shapes.
 #pragma once
 
 #include <array>
@@ -14,34 +14,34 @@
 
 namespace minkray {
 
-/// Three coordinates in the form that other languages use.
+/// Three coordinates as a plain array, for the interfaces to other languages.
 using Coordinates = std::array<double, 3>;
-/// A matrix of 3 x 3, row by row.
+/// A 3 x 3 matrix, row by row.
 using Derivative = std::array<double, 9>;
 
-/// A support mapping supplied by the caller. Any number of threads call it at once. Equal
-/// directions must give equal points. Points must be finite even after an error: the implementation
-/// stores the error and reports it after the query.
+/// A support mapping supplied by the caller. Several threads may call it at once. Equal directions
+/// must give equal points. Points must be finite even after an error: an implementation stores the
+/// error and reports it after the query.
 class SupportSource {
  public:
   virtual ~SupportSource();
 
-  /// Computes the points furthest along `count` directions of any length (at most `most`
-  /// directions). A direction of zero gets any point.
+  /// Computes the shape's furthest points along `count` directions of any length; `count` is at
+  /// most `most`. For a zero direction, the result is any point of the shape.
   void ask(std::size_t count, Coordinates* directions, Coordinates* points) const;
 
-  /// True if the source provides derivatives of its points with respect to the direction, and a
-  /// point in the shape's middle.
+  /// True if the source also provides derivatives of the points with respect to the direction, and
+  /// a point inside the shape.
   bool has_jets() const { return has_jets_; }
   const Coordinates& middle() const { return middle_; }
-  /// Numbers of the jet along a direction: an ellipsoid if `curved`, else a point.
+  /// Jet in one direction, as plain numbers: an ellipsoid if `curved`, otherwise a point.
   struct JetNumbers {
     bool curved = false;
     Coordinates point = {0, 0, 0};
-    Derivative factor = {};  ///< factor of the ellipsoid around the middle
+    Derivative factor = {};  ///< factor F of the ellipsoid around the inner point
   };
-  /// Returns the jet, computed from the point and its symmetric derivative. Derivatives only guide
-  /// casts, so wrong derivatives only cost time.
+  /// Computes the jet from the support point and its derivative, a symmetric matrix. Casts use jets
+  /// only as a guide, so wrong derivatives only cost time.
   JetNumbers jet_along(Coordinates direction) const;
 
   static constexpr std::size_t most = 16;
@@ -53,7 +53,7 @@ class SupportSource {
   }
 
  private:
-  /// Implements `ask`, which passes unit directions.
+  /// Implements `ask`, which calls this function with unit directions.
   virtual void support(std::size_t count, const Coordinates* directions,
                        Coordinates* points) const = 0;
   /// Implements `ask_jets`; called only on objects that have called know_jets.
@@ -77,7 +77,7 @@ struct Custom {
     return support_where(Mask<W>(true), n);
   }
 
-  /// Support points in the wanted lanes; other lanes get the point of the first wanted lane.
+  /// Returns support points in the wanted lanes; other lanes get the first wanted lane's point.
   template <class W>
   Vec3<W> support_where(const Mask<W>& wanted, const Vec3<W>& n) const {
     if constexpr (std::floating_point<W>) {
@@ -106,8 +106,8 @@ struct Custom {
     }
   }
 
-  /// With derivatives: the ellipsoid around the middle that has the same derivative. Without: a
-  /// single point.
+  /// Returns the ellipsoid around the inner point that has the same derivative; a single point if
+  /// there are no derivatives.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     if (!source->has_jets()) return PointJet<W>{support(n)};

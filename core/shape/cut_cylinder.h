@@ -12,8 +12,8 @@
 
 namespace minkray {
 
-/// The points with x^2 + y^2 <= radius^2 between the planes z = heights[k] + slope_k . (x, y), k =
-/// 0 below and 1 above.
+/// All points with x^2 + y^2 <= radius^2 between the lower plane z = heights[0] +
+/// lower_slope . (x, y) and the upper plane z = heights[1] + upper_slope . (x, y).
 struct CutCylinder {
   double radius = 1.0;
   std::array<double, 2> heights = {-1.0, 1.0};
@@ -27,14 +27,14 @@ struct CutCylinder {
     return std::tuple{
         Field{"radius", &CutCylinder::radius, Unit::length, Range::positive, "its radius"},
         Field{"heights", &CutCylinder::heights, Unit::length, Range::any,
-              "where the planes cross the z axis: the lower one, the upper one"},
+              "the heights at which the lower and the upper plane cross the z axis"},
         Field{"lower_slope", &CutCylinder::lower_slope, Unit::none, Range::any,
-              "how much the lower plane rises by a step of one along x, along y", true},
+              "the slope of the lower plane along x, along y", true},
         Field{"upper_slope", &CutCylinder::upper_slope, Unit::none, Range::any,
-              "the same of the upper plane", true}};
+              "the slope of the upper plane along x, along y", true}};
   }
 
-  /// The planes may touch at the cylinder's surface, but must not cross inside it.
+  /// Reports planes that cross inside the cylinder. The planes may touch at the cylinder's surface.
   std::optional<Misfit> misfit() const {
     using std::hypot;
     constexpr double rounding = 8.0 * std::numeric_limits<double>::epsilon();
@@ -66,7 +66,7 @@ struct CutCylinder {
     return {p.x(), p.y(), select(rims.is_upper, height(1, upper_slope), height(0, lower_slope))};
   }
 
-  /// Jet of the ellipse in which the given plane cuts the cylinder.
+  /// Jet of the ellipse that contains the support point: the cut by the lower or the upper plane.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     const Mask<W> is_upper = Rims<W>(*this, n).is_upper;
@@ -82,8 +82,8 @@ struct CutCylinder {
   }
 
  private:
-  /// Finds the point of each plane's ellipse that is furthest along n. Returns the two points
-  /// projected to the unit disk; the mask is set if the upper ellipse reaches further.
+  /// Finds the point furthest along n of each plane's ellipse. Stores the two points projected to
+  /// the unit disk; `is_upper` is set if the upper ellipse reaches further.
   template <class W>
   struct Rims {
     Vec3<W> lower, upper;

@@ -8,8 +8,8 @@
 
 namespace minkray {
 
-/// Support point of the unit disk in the plane z = 0: on the rim. For a direction along the axis,
-/// all points of the disk are support points, and the centre is returned.
+/// Support point of the unit disk in the plane z = 0, usually on the rim. For a direction along z,
+/// all points of the disk are support points; returns the centre.
 template <class W>
 Vec3<W> unit_disk_support(const Vec3<W>& n) {
   return unit<W>({n.x(), n.y(), W(0)});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The convex hull of points, which a file lists or which are the vertices of a mesh file.
+// The convex hull of points: given as a list, or as the vertices of a mesh file.
 #pragma once
 
 #include "core/geometry/point_cloud.h"

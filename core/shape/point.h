@@ -15,11 +15,11 @@ struct Point {
   static constexpr std::string_view name = "point";
   static constexpr std::string_view doc = "A single point; with a radius around it, a ball.";
   static constexpr auto fields() {
-    return std::tuple{
-        Field{"position", &Point::position, Unit::length, Range::any, "where it is", true}};
+    return std::tuple{Field{"position", &Point::position, Unit::length, Range::any,
+                            "the point's position", true}};
   }
 
-  /// A ball of radius 0; rounding the point gives a ball.
+  /// Closed form of a ball of radius 0, so that a rounded point has the closed form of a ball.
   ExactForm exact_form() const {
     const Vec3<double>& p = position;
     return {FormKind::ball, {0}, {double(p[0]), double(p[1]), double(p[2])}};

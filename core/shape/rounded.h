@@ -18,9 +18,10 @@ struct Rounded {
   static constexpr std::string_view doc =
       "A shape grown by a radius: its Minkowski sum with a ball.";
   static constexpr auto fields() {
-    return std::tuple{Field{"radius", &Rounded::radius, Unit::length, Range::not_negative,
-                            "how far the shape grows"},
-                      Field{"shape", &Rounded::shape, Unit::none, Range::any, "what is rounded"}};
+    return std::tuple{
+        Field{"radius", &Rounded::radius, Unit::length, Range::not_negative,
+              "the radius by which the shape grows"},
+        Field{"shape", &Rounded::shape, Unit::none, Range::any, "the shape to round"}};
   }
 
   /// The closed form of the inner shape, grown by `radius`; empty if the inner shape has none.

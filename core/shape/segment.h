@@ -21,7 +21,7 @@ struct Segment {
         Field{"points", &Segment::points, Unit::length, Range::any, "its two end points"}};
   }
 
-  /// Used only if the segment is rounded.
+  /// Closed form for rounded segments; casts at plain segments do not use it.
   ExactForm exact_form() const {
     const Vec3<double>&a = points[0], &b = points[1];
     const Vec3<double> half = (b - a) / 2, middle = a + half;

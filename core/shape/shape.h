@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A convex shape of any kind. This is the only list of all kinds: a new shape is a header and one
-// line in ShapeVariant.
+// A convex shape of any kind. ShapeVariant is the only list of all kinds: to add a kind, add a
+// header and one line in ShapeVariant.
 #pragma once
 
 #include <type_traits>
@@ -68,15 +68,15 @@ struct Shape {
   template <class S>
   requires detail::is_alternative<S, ShapeVariant> Shape(S shape) : kind(std::move(shape)) {}
 
-  // Compiled once, in shape.cpp, since each of these dispatches on every kind of shape.
+  // Compiled once, in shape.cpp, since each of these functions has code for every kind of shape.
   Shape(const Shape& other);
   Shape(Shape&& other) noexcept;
   Shape& operator=(const Shape& other);
   Shape& operator=(Shape&& other) noexcept;
   ~Shape();
 
-  /// Returns the point of the shape that is furthest along n. n may have any length; for n = 0, the
-  /// result is any point of the shape.
+  /// Returns the point of the shape that is furthest along n (the support point). n may have any
+  /// length; for n = 0, the result is any point of the shape.
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
     return std::visit([&](const auto& shape) -> Vec3<W> { return shape.support(n); }, kind);
@@ -107,7 +107,7 @@ extern template Jet<double> Shape::jet(const Vec3<double>&) const;
 
 static_assert(SupportMapped<Shape, double>);
 
-/// Calls visit.template operator()<S>() for every kind of shape S, in order.
+/// Calls visit.template operator()<S>() for every kind of shape S, in the order of ShapeVariant.
 template <class Visit>
 void for_each_shape_kind(Visit&& visit) {
   [&]<class... S>(std::type_identity<std::variant<S...>>) {

@@ -21,12 +21,12 @@ struct Superellipsoid {
     return std::tuple{Field{"radii", &Superellipsoid::radii, Unit::length, Range::positive,
                             "a, b and c: its radii along x, y and z"},
                       Field{"exponent", &Superellipsoid::exponent, Unit::none, Range::at_least_one,
-                            "p: 1 an octahedron, 2 an ellipsoid, the larger the boxier"}};
+                            "p: 1 for an octahedron, 2 for an ellipsoid, more for nearly a box"}};
   }
 
-  /// Hoelder's inequality with 1/p + 1/q = 1 gives s_i = a_i sign(n_i) (m_i/|m|_q)^(q-1) with m_i =
-  /// |a_i n_i|. m is scaled by its largest component, so that no power overflows and p = 1 (q
-  /// infinite) gives a vertex, or the mean of the vertices that tie.
+  /// Returns the support point s. By Hoelder's inequality with 1/p + 1/q = 1, s_i = a_i sign(n_i)
+  /// (m_i/|m|_q)^(q-1) with m_i = |a_i n_i|. m is scaled by its largest component, so that no power
+  /// overflows and p = 1 (q infinite) gives a vertex, or the mean of the vertices that tie.
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
     using std::abs;
@@ -48,10 +48,10 @@ struct Superellipsoid {
             select(n.z() < W(0), W(-s.z()), s.z())};
   }
 
-  /// With u = m/|m|_q and g_i = sign(n_i) u_i^(q-1), the osculating ellipsoid has the shape matrix
-  /// diag(a) ((q-1) diag(u^(q-2)) - (q-2) g g^T) diag(a). On the coordinate planes the radius of
-  /// curvature is infinite for p > 2, so g is kept above a small number there. For p < 2 the radius
-  /// is 0 and must stay 0: a model with a larger radius would extend beyond the shape.
+  /// Returns the osculating ellipsoid. With u = m/|m|_q and g_i = sign(n_i) u_i^(q-1), its shape
+  /// matrix is diag(a) ((q-1) diag(u^(q-2)) - (q-2) g g^T) diag(a). On the coordinate planes the
+  /// radius of curvature is infinite for p > 2, so g is kept above a small number there. For p < 2
+  /// the radius is 0 and must stay 0: a model with a larger radius would extend beyond the shape.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     using std::abs;
@@ -73,8 +73,8 @@ struct Superellipsoid {
     return {Vec3<W>::Zero(), a.asDiagonal() * factor<W>(A), Mask<W>(false), s};
   }
 
-  /// The gauge |x/a|_p of points x(lambda) = (u + lambda v) a on a line: the least factor by which
-  /// the shape must be scaled to contain the point. The gauge is convex, and 1 on the surface.
+  /// Gauge |x/a|_p of points x(lambda) = (u + lambda v) a on a line: the least factor by which the
+  /// shape must be scaled to contain the point. The gauge is convex, and 1 on the surface.
   template <class W>
   struct Gauge {
     W value;

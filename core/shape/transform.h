@@ -18,7 +18,7 @@ struct Transform {
       "A shape moved, turned, scaled, sheared or mirrored by an invertible affine map.";
   static constexpr auto fields() {
     return std::tuple{
-        Field{"shape", &Transform::shape, Unit::none, Range::any, "what is transformed"},
+        Field{"shape", &Transform::shape, Unit::none, Range::any, "the shape to transform"},
         Field{"map", &Transform::map, Unit::length, Range::any,
               "\"translate\" [x,y,z], \"rotate\" [x,y,z,w] (quaternion) and \"scale\" (a number or "
               "three, applied first), each optional; or \"matrix\": three rows of three or four"}};
@@ -35,12 +35,13 @@ struct Transform {
     return {map(inner.c), mapped_factor<W>(inner.F), inner.exact, map(inner.s)};
   }
 
-  /// Maps an ellipsoid's factor F. A ball stays a ball if the map scales all lengths equally.
+  /// Maps the factor F of a jet's ellipsoid. A ball stays a ball if the map scales all lengths
+  /// equally.
   template <class W>
   Mat3<W> mapped_factor(const Mat3<W>& F) const {
     Mat3<W> mapped = widen<W, double>(map.affine().linear) * F;
     if (map.similarity() > 0.0) {
-      // Decides for each lane, so that no lane depends on the others.
+      // Decides for each lane separately, so that no lane depends on the others.
       const Mat3<W> ball = Mat3<W>::Identity() * F(0, 0);
       const Mask<W> is_ball = (F - ball).cwiseAbs().sum() == W(0);
       const Mat3<W> scaled = ball * W(map.similarity());

@@ -22,7 +22,7 @@ struct Triangle {
         Field{"points", &Triangle::points, Unit::length, Range::any, "its three corners"}};
   }
 
-  /// Used only if the triangle is rounded.
+  /// Closed form for rounded triangles; casts at plain triangles do not use it.
   ExactForm exact_form() const {
     ExactForm form{FormKind::triangle, {}, {}};
     for (std::size_t i = 0; i < 9; ++i)

@@ -19,17 +19,18 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 /// largest component of the latter. Blocks with larger differences save no time.
 constexpr double widest = 0.25;
 
-/// Allows for 16 roundings. The two ray parameters that are compared are rounded five times each.
+/// Padding of box tests. Allows for 16 roundings; the two ray parameters that are compared are
+/// rounded five times each.
 constexpr float block_padding = 1 + 8 * std::numeric_limits<float>::epsilon();
 
 struct alignas(32) Block {
-  /// Indexed by ray: the difference from the middle direction, and 1 / direction, which is never
-  /// infinite.
+  /// Indexed by axis and ray: the direction minus the middle direction, and 1 / direction, which is
+  /// never infinite.
   float delta[3][all_rays], inverse[3][all_rays];
   double origin[4], middle[4];
   double middle_squared;
-  double widest;  ///< greatest length of the differences
-  /// Bounds of the origin in float from both sides, and bounds of all inverses.
+  double widest;  ///< greatest length of a direction minus the middle direction
+  /// The origin rounded up and down to float, and bounds of `inverse` over all rays.
   float above[3], below[3];
   float inverse_near[3], inverse_far[3];
   float least_up[3], least_down[3];
@@ -146,7 +147,7 @@ bool make_block(const char* rays, std::size_t stride, std::size_t count, Block& 
     block.below[axis] = below(first[axis]);
     block.mixed[axis] = low < 0 && high > 0;
     block.down[axis] = low < 0;
-    // Near planes use the steepest inverse, far planes the flattest.
+    // Near planes need the inverse that gives the least t, far planes the one for the greatest t.
     block.inverse_near[axis] = low < 0 ? high : low;
     block.inverse_far[axis] = low < 0 ? low : high;
     if (!block.mixed[axis]) continue;

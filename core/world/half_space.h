@@ -13,12 +13,12 @@
 
 namespace minkray {
 
-/// The points x with normal . x <= offset.
+/// The half-space of all points x with normal . x <= offset.
 template <class T>
 struct HalfSpaceBody {
   Vec3<T> normal = {T(0), T(0), T(1)};  ///< outward, of unit length
   T offset = T(0);
-  /// Bounds of the rounding errors due to a pose: of each entry of the normal, and of the offset.
+  /// Error bounds of each component of the normal, and of the offset, due to rounding in posed().
   T normal_error = T(0), offset_error = T(0);
 
   /// Maps the half-space by an invertible map.
@@ -40,9 +40,9 @@ struct HalfSpaceBody {
   }
 };
 
-/// Finds where the ray enters the half-space; `inside` if the ray begins below the surface. The
-/// interval of t includes the rounding of the division. A ray parallel to the plane misses or
-/// begins inside. Exhausted if the height, the slope or the distance along the ray overflows.
+/// Finds where the ray enters the half-space. The status is `inside` if the ray starts below the
+/// plane; a ray parallel to the plane misses or starts inside. The bounds of t include rounding.
+/// `exhausted` if the origin's height above the plane, the slope or t overflows.
 template <class T>
 CastResult<T> cast_ray(const HalfSpaceBody<T>& half_space, const Ray<T>& ray) {
   using std::abs, std::isfinite;

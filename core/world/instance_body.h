@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Data shared by instances of one definition: the definition, and the frame to which the instances'
-// poses map (InstancePlace).
+// Data shared by instances of one definition: the definition, and the frame in which rays are cast
+// at it (the body's frame). Each InstancePlace stores the map from the world to this frame.
 #pragma once
 
 #include <memory>
@@ -10,12 +10,13 @@
 
 namespace minkray {
 
-/// InstancePlace maps the world to the body's frame: the inner frame of the definition. Its origin
-/// is that of the shape's own frame if the body is plain, else the inner ball's centre.
+/// The body's frame is the inner frame of the definition (see PreparedShape). The origin of the
+/// body's frame is the origin of the shape's own frame if the body is plain; otherwise the centre
+/// of the inner ball.
 struct InstanceBody {
   std::shared_ptr<const ShapeDefinition> definition;
   std::uint32_t number = 0;                    ///< number of the definition
-  Vec3<double> centre = Vec3<double>::Zero();  ///< of the inner ball, in the body's frame
+  Vec3<double> centre = Vec3<double>::Zero();  ///< inner ball's centre in the body's frame
   bool is_centred = true;                      ///< centre is zero
   bool is_turned = false;                      ///< the map is not the identity
   bool is_plain = false;  ///< the pose keeps lengths, and no outer map was removed

@@ -25,14 +25,14 @@
 
 namespace minkray {
 
-/// Number that means "no instance". As a result: a miss. As the instance to skip: none is skipped.
+/// Index that means "no instance": as a result, a miss; as the instance to skip, skip none.
 inline constexpr std::uint32_t no_instance = std::numeric_limits<std::uint32_t>::max();
 
 /// Kinds of rays, one bit each; the caller defines their meaning.
 using RayKinds = std::uint8_t;
 inline constexpr RayKinds all_ray_kinds = 0xff;
 
-/// All instances of a world. Each takes 64 bytes, and 36 more if its map does not fit in float.
+/// All instances of a world. Each takes 64 bytes, and 36 more if its pose does not fit in floats.
 class Instances {
  public:
   /// Stores a shape for `add`. Returns its number; equal shapes get the same number.
@@ -40,7 +40,7 @@ class Instances {
   /// Stores an existing definition. Returns the same number for the same definition.
   std::uint32_t define(const std::shared_ptr<const ShapeDefinition>& shared);
 
-  /// `pose` maps the frame of the definition's shape to the world; it must be invertible.
+  /// Adds an instance. `pose` maps the shape's frame to the world, and must be invertible.
   void add(std::uint32_t definition, const Affine<double>& pose);
   void add(Shape shape, const Affine<double>& pose = {}) { add(define(std::move(shape)), pose); }
 
@@ -67,8 +67,8 @@ class Instances {
     are_boxes_stale_ = true;
   }
 
-  /// Pose of an instance exactly as given. Only for meshes, and for shapes without outer maps under
-  /// a pose that keeps lengths; nullopt for other instances.
+  /// Returns the pose of an instance exactly as given: for meshes, and for shapes that are no
+  /// Transform and have a pose that keeps lengths. Returns nullopt for other instances.
   std::optional<Affine<double>> plain_pose(std::size_t i) const;
 
   /// Shows the i-th instance to rays of these kinds only. Call after all instances are added.
@@ -76,12 +76,12 @@ class Instances {
   bool is_shown_to(std::size_t i, RayKinds kinds) const {
     return shown_to_.empty() || (shown_to_[i] & kinds) != 0;
   }
-  /// Kinds of rays by instance; null if all instances are shown to all rays.
+  /// Returns the kinds of rays per instance; null if all instances are shown to all rays.
   const RayKinds* shown_to() const { return shown_to_.empty() ? nullptr : shown_to_.data(); }
 
   /// Moves every instance: the i-th to pose_of(i). With movement_of, the i-th follows
   /// movement_of(i) while time goes from 0 to 1, and its box contains this motion. Several threads
-  /// call the functions at once. Boxes are stale until they are computed again.
+  /// call both functions at once. Computes all boxes again.
   void pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
                 const std::function<Movement<double>(std::size_t)>& movement_of = {});
 
@@ -95,14 +95,14 @@ class Instances {
   Vec3<double> seen_by(std::size_t i, const Vec3<double>& point, double time) const {
     return movements_.empty() ? point : movements_[i].unmoved(point, time);
   }
-  /// Rotates a direction to the instance's orientation at time 0, and back.
+  /// Rotates a direction with the instance from `time` back to time 0; `turned` rotates it forward.
   Vec3<double> unturned(std::size_t i, const Vec3<double>& direction, double time) const {
     return movements_.empty() ? direction : movements_[i].unturned(direction, time);
   }
   Vec3<double> turned(std::size_t i, const Vec3<double>& direction, double time) const {
     return movements_.empty() ? direction : movements_[i].turned(direction, time);
   }
-  /// Converts the result of casting the ray returned by seen_by() to the world.
+  /// Converts the result of a cast of the ray that seen_by() returned to the world.
   CastResult<double> turned(std::size_t i, CastResult<double> cast, double time) const {
     if (!movements_.empty()) cast.normal = movements_[i].turned(cast.normal, time);
     return cast;
@@ -124,7 +124,7 @@ class Instances {
   const std::vector<PosedHalfSpace>& half_spaces() const { return half_spaces_; }
   bool is_half_space(std::size_t i) const { return places_[i].body == no_body; }
 
-  /// In the order of their instances.
+  /// Returns the meshes in the order of their instances.
   const std::vector<PosedMesh>& meshes() const { return meshes_; }
   bool is_mesh(std::size_t i) const { return places_[i].body == body_of_mesh; }
   const PosedMesh& mesh_of(std::size_t i) const { return meshes_[index_of_mesh(i)]; }
@@ -134,8 +134,8 @@ class Instances {
   /// True if there are half-spaces or meshes.
   bool have_shapeless() const { return !half_spaces_.empty() || !meshes_.empty(); }
 
-  /// Returns an instance with a shape, prepared for casts. The result refers to this object, which
-  /// must outlive the result. `loss` is the uncertainty of a ray's position, in the inner frame.
+  /// Returns an instance with a shape, prepared for casts. This object must outlive the result.
+  /// `loss` is the error bound of a ray's position, in the inner frame (see PreparedShape).
   PreparedShape at(std::size_t i, double loss = 0) const {
     const InstancePlace& place = places_[i];
     const InstanceBody& body = bodies_[place.body];
@@ -152,8 +152,8 @@ class Instances {
     return {definition, ShapeDefinition::plain_centre({map.transpose(), origin}, body.centre), turn,
             (body.is_turned ? definition.plain_loss() : 0) + loss};
   }
-  /// Returns the place of an instance at rest for the filter. Writes `map`, which must outlive the
-  /// place.
+  /// Returns the placement of an instance at rest, as the filter needs it. Writes `map`, which must
+  /// outlive the result.
   FormPlace form_place(std::size_t i, Mat3<double>& map) const {
     const InstancePlace& place = places_[i];
     const InstanceBody& body = bodies_[place.body];
@@ -166,12 +166,12 @@ class Instances {
                 : origin,
             body.is_turned ? &map : nullptr};
   }
-  /// Same as at(), for a ray returned by seen_by(): `loss` includes the rounding of seen_by().
+  /// Same as at(), for a ray returned by seen_by(). `loss` is then the rounding error of seen_by().
   PreparedShape at_seen_by(std::size_t i, const Ray<double>& ray) const {
     const double loss = loss_of_seen_by(i, ray);
     return loss == 0 ? at(i) : at(i, loss * to_inner(i).norm());
   }
-  /// Rounding error of `seen_by`, in the world's frame.
+  /// Error bound of seen_by() due to rounding, in the world's frame.
   double loss_of_seen_by(std::size_t i, const Ray<double>& ray) const {
     return movements_.empty() || movements_[i].stands() ? 0 : movements_[i].rounding(ray.origin);
   }
@@ -179,15 +179,15 @@ class Instances {
   const InstanceBody& body_of(std::size_t i) const { return bodies_[places_[i].body]; }
   std::uint32_t definition_of(std::size_t i) const { return body_of(i).number; }
 
-  // Arrays that kernels read.
+  // Arrays for kernels (code compiled per instruction set).
   const InstancePlace* places() const { return places_.data(); }
   /// Null if all maps fit in float.
   const TrailingDigits* digits() const { return digits_.empty() ? nullptr : digits_.data(); }
   const std::vector<InstanceBody>& bodies() const { return bodies_; }
   const Screen* screens() const { return screens_.data(); }
 
-  /// Returns a form's kind if every shape that rays can hit equals a closed form of this kind,
-  /// which screens it; otherwise FormKind::none.
+  /// Returns the kind of closed form that all shapes have that rays can hit, if each shape equals
+  /// its form; otherwise FormKind::none.
   FormKind kind_of_all() const;
 
   [[gnu::always_inline]] void prefetch(std::size_t i) const { __builtin_prefetch(&places_[i]); }
@@ -223,15 +223,15 @@ class Instances {
     std::array<std::uint32_t, 5> bodies;
   };
 
-  /// For an instance that is not plain: digits missing from its origin, and the uncertainty of its
-  /// pose.
+  /// For an instance that is not plain: digits of the origin beyond double, and the error bound of
+  /// the pose.
   struct Rest {
     Vec3<double> centre = Vec3<double>::Zero();
     double loss = 0;
     bool is_zero() const { return loss == 0 && centre.isZero(0); }
   };
 
-  /// Map of an instance, and which body of the definition it uses.
+  /// Map of an instance, and the index of the definition's body that the instance uses.
   struct Placed {
     std::size_t which = 0;
     TrailingDigits digits = {};
@@ -247,8 +247,8 @@ class Instances {
   Mat3<double> to_inner(std::size_t i) const;
   std::uint32_t number_of(std::shared_ptr<const ShapeDefinition> definition);
   std::uint32_t body_with(std::uint32_t definition, std::size_t which);
-  /// Writes the instance's InstancePlace except for `body`, which `keep` finds. `keep` is not
-  /// thread-safe.
+  /// Writes the instance's InstancePlace except for the member `body`, which `keep` sets. `keep` is
+  /// not thread-safe.
   Placed placed(std::size_t i, std::uint32_t definition, const Affine<double>& pose);
   void keep(std::size_t i, std::uint32_t definition, const Placed& placed);
   void put(std::size_t i, std::uint32_t definition, const Affine<double>& pose);
@@ -258,20 +258,20 @@ class Instances {
                   const std::function<Affine<double>(std::size_t)>& pose_of);
 
   std::vector<Defined> definitions_;
-  std::unordered_map<const void*, std::uint32_t> shared_;      ///< by address
-  std::unordered_multimap<std::size_t, std::uint32_t> equal_;  ///< by hash of the shape
+  std::unordered_map<const void*, std::uint32_t> shared_;      ///< definitions by address
+  std::unordered_multimap<std::size_t, std::uint32_t> equal_;  ///< definitions by hash of the shape
   std::vector<InstanceBody> bodies_;
-  std::vector<Screen> screens_;  ///< by body
+  std::vector<Screen> screens_;  ///< per body
   FirstTouchVector<InstancePlace> places_;
-  FirstTouchVector<TrailingDigits> digits_;  ///< by instance; empty if all are zero
+  FirstTouchVector<TrailingDigits> digits_;  ///< per instance; empty if all are zero
   std::unordered_map<std::uint32_t, Rest> rests_;
   std::unordered_map<std::uint32_t, Mat3<double>> wide_;  ///< maps that do not fit in float
-  std::vector<Movement<double>> movements_;               ///< by instance; empty if all are at rest
+  std::vector<Movement<double>> movements_;  ///< per instance; empty if all are at rest
   FirstTouchVector<Bounds<float>> boxes_;
   bool are_boxes_stale_ = false;
   std::vector<PosedHalfSpace> half_spaces_;  ///< in the order of their instances
   std::vector<PosedMesh> meshes_;            ///< in the order of their instances
-  std::vector<RayKinds> shown_to_;           ///< by instance; empty if all are shown to all rays
+  std::vector<RayKinds> shown_to_;           ///< per instance; empty if all are shown to all rays
 };
 
 }  // namespace minkray

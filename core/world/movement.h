@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Motion of a body while time goes from 0 to 1: the body turns at a constant rate about a pivot
-// that moves along a line. A ray with a time is moved back to time 0 and cast at the body's pose
-// there. This is exact: no shape is stretched or sliced.
+// that moves along a line. A ray with a time is moved back with the body to time 0, and cast at the
+// body's pose at time 0. This is exact: the shape itself is not changed.
 #pragma once
 
 #include <cmath>
@@ -39,20 +39,20 @@ struct Movement {
     return angle == T(0) ? unshifted : Vec3<T>(pivot + unturned(unshifted - pivot, time));
   }
 
-  /// Bounds the error of `unmoved` for a ray with this origin, at points near the pivot or near the
-  /// origin: a dozen roundings of the distance between the two.
+  /// Returns a bound of the rounding error of `unmoved` for a ray with this origin, at points near
+  /// the pivot or the origin: a dozen roundings of the distance between these two.
   T rounding(const Vec3<T>& origin) const {
     constexpr T roundings = T(6) * std::numeric_limits<T>::epsilon();
     return roundings * (origin.norm() + pivot.norm() + shift.norm());
   }
 
-  /// Position at `time` of the body's point that is at `point` at time 0.
+  /// Returns the position at `time` of the body's point that is at `point` at time 0.
   Vec3<T> moved(const Vec3<T>& point, T time) const {
     return angle == T(0) ? Vec3<T>(point + time * shift)
                          : Vec3<T>(pivot + time * shift + turned(point - pivot, time));
   }
 
-  /// Pose at `time` of a body whose pose at time 0 is given.
+  /// Returns the pose at `time` of a body whose pose at time 0 is given.
   Affine<T> moved(const Affine<T>& pose, T time) const {
     Affine<T> now = pose;
     for (int column = 0; column < 3; ++column)
@@ -79,7 +79,7 @@ struct Movement {
     const T beside = std::sqrt(rho_squared) * angle * angle / T(8);
     all.lower.array() -= beside;
     all.upper.array() += beside;
-    // The body also stays in the ball around the pivot.
+    // The body also stays in a ball around the moving pivot.
     const T reach = std::sqrt(reach_squared);
     Bounds<T> balls{pivot - Vec3<T>::Constant(reach), pivot + Vec3<T>::Constant(reach)};
     balls.extend(Bounds<T>{balls.lower + shift, balls.upper + shift});
@@ -87,7 +87,7 @@ struct Movement {
   }
 
  private:
-  /// Rodrigues' formula.
+  /// Rotates v about the axis by the angle phi (Rodrigues' formula).
   Vec3<T> by_angle(const Vec3<T>& v, T phi) const {
     const T cosine = std::cos(phi), sine = std::sin(phi);
     return cosine * v + sine * axis.cross(v) + (T(1) - cosine) * axis.dot(v) * axis;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds pairs of near bodies among many, and their signed distances, by traversing a BVH against
-// itself or another BVH. Half-spaces are not supported, since they have no box.
+// Finds all pairs of bodies that are near each other, and their signed distances. Traverses two
+// BVHs together, or one BVH with itself. Half-spaces are not supported, since they have no box.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@ namespace minkray {
 struct ContactBody {
   ContactShape shape;
   Affine<double> pose;  ///< rigid, to the world
-  /// Two bodies are a pair only if each body's mask has a bit of the other's category.
+  /// Two bodies form a pair only if each body's mask shares a bit with the other's category.
   std::uint32_t category = 1;
   std::uint32_t mask = ~std::uint32_t{0};
   std::shared_ptr<const TriangleMesh> mesh =
-      {};  ///< if not null, the body is this mesh instead of the shape
+      {};  ///< if not null, the body is this mesh and has no shape
 
   PartsBody parts() const { return mesh ? PartsBody(*mesh) : PartsBody(shape); }
   bool is_pair_with(const ContactBody& other) const {
@@ -53,23 +53,23 @@ struct NearPair {
 };
 
 struct NearPairsOptions {
-  double at_most = 0;  ///< pairs further apart are omitted; 0: only pairs that overlap or touch
+  double at_most = 0;  ///< omits pairs further apart; 0: returns only pairs that overlap or touch
   /// Optional filter, in addition to masks: returns false for pairs to skip, such as allowed pairs.
   std::function<bool(std::size_t a, std::size_t b)> wanted;
   double tolerance = SignedDistanceOptions{}.tolerance;
 };
 
-/// All pairs of a world whose signed distance is not proven to be above `at_most`, including those
-/// with an unknown distance. Sorted by their indices for any number of threads.
+/// Returns all pairs of bodies of a world, except pairs whose signed distance is proven to be above
+/// `at_most`. Includes pairs with an unknown distance. Sorted by the bodies' indices.
 std::vector<NearPair> near_pairs(const ContactWorld& world, const NearPairsOptions& options);
 
-/// All pairs of a body of one world and one of the other.
+/// Returns the pairs of a body of `first` and a body of `second`.
 std::vector<NearPair> near_pairs(const ContactWorld& first, const ContactWorld& second,
                                  const NearPairsOptions& options);
 
-/// Returns up to `count` bodies nearest to another one, the nearest first, with a = 0. Masks apply.
-/// Bodies whose distance is unknown (SignedDistance::is_unknown()) come last, and only if there are
-/// fewer than `count` others. Bodies proven to be further away than `at_most` are omitted.
+/// Returns up to `count` bodies nearest to `to`, the nearest first, with a = 0. Masks apply. Bodies
+/// whose distance is unknown (SignedDistance::is_unknown()) come last, and only if there are fewer
+/// than `count` others. Bodies proven to be further away than `at_most` are omitted.
 std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& world,
                                      std::size_t count,
                                      double at_most = std::numeric_limits<double>::infinity());

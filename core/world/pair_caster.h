@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Exact casts for pairs of a ray and an instance. If the body has a closed form, four pairs are
-// cast at a time; otherwise, all rays are cast at one instance after another.
+// Casts pairs of a ray and an instance exactly. Pairs whose shape has a closed form are queued and
+// cast four at a time. The others are sorted, so that one instance is cast at by all its rays.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// A ray, an instance, and a lower bound of t at which the ray hits it.
+/// A ray and an instance that it may hit, at t >= `first`.
 struct OpenPair {
   std::uint32_t ray, instance;
   float first;
@@ -22,8 +22,8 @@ inline bool is_formless(const Instances& instances, std::uint32_t instance) {
   return instances.body_of(instance).definition->form().kind == FormKind::none;
 }
 
-/// Calls on_found(ray, instance, t, result) for pairs that meet. Here result() returns the
-/// CastResult.
+/// Calls on_found(ray, instance, t, result) for each pair whose ray hits the instance or starts
+/// inside it. `result` is a function that returns the CastResult.
 template <class OnFound>
 class PairCaster {
  public:
@@ -56,7 +56,7 @@ class PairCaster {
       if (queues_[body].count != 0) cast_together(queues_[body], instances_.bodies()[body]);
   }
 
-  /// Casts pairs whose bodies have no closed form, sorted by instance and then by lower bound.
+  /// Casts pairs whose shapes have no closed form, in the order of instances and lower bounds.
   /// is_due(pair) returns true if the pair can still change the result.
   template <class IsDue>
   void cast_formless(std::vector<OpenPair>& pairs, const IsDue& is_due) {
@@ -91,7 +91,7 @@ class PairCaster {
     pairs.clear();
   }
 
-  /// Rays with a cast that did not converge. The list may contain a ray several times.
+  /// Returns the rays with a cast that did not converge. The list may contain a ray several times.
   const std::vector<std::uint32_t>& exhausted() const { return exhausted_; }
 
  private:
@@ -148,7 +148,7 @@ class PairCaster {
   QueryCounts& counts_;
   OnFound on_found_;
   bool has_queues_;
-  std::vector<Queue> queues_;             ///< by body; none before the first pair
+  std::vector<Queue> queues_;             ///< indexed by body; empty if queues are not used
   std::vector<std::uint32_t> exhausted_;  ///< rays with a cast that did not converge
 };
 

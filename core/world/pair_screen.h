@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Queues pairs of a ray and an instance that a traversal finds, by the kind of the closed form.
-// Tests eight pairs at a time in float lanes, which discard most pairs, and passes on those that
-// may hit.
+// Screens the pairs of a ray and an instance that a BVH traversal finds. Pairs are queued by the
+// kind of the instance's closed form, and tested eight at a time in float lanes, which discard most
+// of them. The pairs that may hit are passed on.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ namespace minkray {
 struct RayLimits {
   std::vector<SlabRay> slabs;
   std::vector<float> t;            ///< rounded up from double
-  std::vector<std::uint8_t> sure;  ///< 1: the limit is from a certain hit that is not cast yet
+  std::vector<std::uint8_t> sure;  ///< 1: the limit is that of a certain hit, not cast yet
 
   explicit RayLimits(const RaySpan& rays) : slabs(rays.size()), t(rays.size()), sure(rays.size()) {
     for (std::size_t i = 0; i < rays.size(); ++i) t[i] = detail::float_above(rays.ray(i).t_max);
@@ -38,12 +38,12 @@ struct RayLimits {
   }
 };
 
-/// Calls on_open(ray, instance, first, last, is_sure) for pairs that may hit. The hit is at
-/// t >= first. If `is_sure`, the ray certainly hits, at t <= last.
+/// Calls on_open(ray, instance, first, last, is_sure) for each pair that may hit. A hit can only be
+/// at t >= first. If `is_sure`, there is a hit for certain, at t <= last.
 template <class OnOpen>
 class PairScreen {
  public:
-  /// `kind_of_all`: the form's kind if all bodies have the same, otherwise none.
+  /// `kind_of_all` is the kind of all instances' closed forms, or none if kinds differ.
   PairScreen(const Instances& instances, FormKind kind_of_all, const RaySpan& rays,
              const RayLimits& limits, OnOpen on_open)
       : instances_(instances),
@@ -52,7 +52,7 @@ class PairScreen {
         rays_(rays),
         on_open_(std::move(on_open)) {}
 
-  /// Keeps the pairs until the next call, and meanwhile prefetches the instances' poses.
+  /// Takes new pairs. Prefetches the instances' poses now, and screens the pairs in the next call.
   void take(const std::uint32_t* rays, const std::uint32_t* instances, std::size_t pairs) {
     if (kind_of_all_ != FormKind::none) {
       std::size_t from = 0;
@@ -112,7 +112,7 @@ class PairScreen {
     count_ = 0;
   }
 
-  /// Screens eight entries. Only the first `used` are valid.
+  /// Screens eight pairs. Only the first `used` pairs are valid.
   void look_at(FormKind kind, std::uint32_t* ray, std::uint32_t* instance, std::size_t used) {
     for (std::size_t i = used; i < screen_lanes; ++i) {
       ray[i] = ray[0];

@@ -14,7 +14,7 @@ namespace minkray {
 struct PosedMesh {
   std::uint32_t instance = 0;
   std::shared_ptr<const TriangleMesh> mesh;
-  Affine<double> pose;                              ///< from the mesh's frame to the world
+  Affine<double> pose;                              ///< maps the mesh's frame to the world
   Mat3<double> to_mesh = Mat3<double>::Identity();  ///< inverse of the pose's linear part
   bool is_turned = false;                           ///< true if to_mesh is not the identity
 
@@ -26,19 +26,20 @@ struct PosedMesh {
   Bounds<double> bounds_under(const Affine<double>& other) const;
 };
 
-/// Result of a cast at a posed mesh, and the hit triangle. The normal is that of the triangle, on
+/// Result of a cast at a posed mesh, and the hit triangle. The normal is the triangle's normal on
 /// the side of the ray's origin.
 struct MeshCast {
   CastResult<double> cast;
   std::uint32_t part = no_part;
 };
 
-/// A ray that starts on the mesh ignores hits closer to its origin than this, since they are due to
+/// Least distance of hits from the origin for a ray that starts on the mesh; nearer hits are due to
 /// rounding of the origin. Relative to the mesh's size and the ray's distance from the mesh.
 inline constexpr double leaving_mesh = 0x1p-36;
 
-/// Hits beyond t = `most`, which may be infinite, do not matter: some are returned. `loss` is the
-/// error of the ray's position. Returns `exhausted` instead of a miss if numbers are too large.
+/// Finds the first triangle that the ray hits at t <= `most`, which may be infinite. `leaves`: the
+/// ray starts on the mesh (leaving_mesh). `loss` is the error bound of the ray's position. Returns
+/// `exhausted` instead of a miss if numbers are too large.
 MeshCast cast_ray(const PosedMesh& posed, const Ray<double>& ray, double most, bool leaves,
                   double loss, PartCounts& counts);
 /// Finds where a ray from outside leaves a closed mesh: at the second intersection, or at the first

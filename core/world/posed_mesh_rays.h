@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Casts many rays at one posed mesh: faster than single casts, with the same results.
+// Casts many rays at one posed mesh, with the results of single casts but faster.
 #pragma once
 
 #include <span>
@@ -22,7 +22,7 @@ struct CastTaker {
 };
 void cast_for(const PosedMesh& posed, std::span<const MeshQuery> queries, PartCounts& counts,
               const CastTaker& taker);
-/// Calls take(i, cast) with cast_ray of queries[i], in their order.
+/// Calls take(i, cast) for each query in order; `cast` is the result of cast_ray for queries[i].
 template <class Take>
 void cast_rays(const PosedMesh& posed, std::span<const MeshQuery> queries, PartCounts& counts,
                Take&& take) {
@@ -31,7 +31,7 @@ void cast_rays(const PosedMesh& posed, std::span<const MeshQuery> queries, PartC
   };
   cast_for(posed, queries, counts, CastTaker{plain, &take});
 }
-/// Sets met[i] to 1 if is_met is true for queries[i], to 0 if not; ignores `most` and `loss`.
+/// Sets met[i] to the result of is_met for queries[i], as 1 or 0. Ignores `most` and `loss`.
 void are_met(const PosedMesh& posed, std::span<const MeshQuery> queries,
              std::span<std::uint8_t> met, PartCounts& counts);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds instances of one shape that have the same pose: rays only need two of them.
+// Finds instances that have the same shape and pose as others. Rays need only two of such copies,
+// since a ray skips at most one instance.
 #pragma once
 
 #include <cstdint>

@@ -16,7 +16,7 @@ struct SingleWorld {
   const BvhNode* nodes;
   const InstancePlace* places;
   const Screen* screens;
-  const RayKinds* shown_to;  ///< by instance; null if all are shown
+  const RayKinds* shown_to;  ///< indexed by instance; null if all are shown to all rays
 };
 
 struct SingleRay {
@@ -24,11 +24,11 @@ struct SingleRay {
   SlabRay slabs;
   std::uint32_t skip;
   RayKinds kinds;
-  /// Upper limit of t; lowered to the upper bound of a certain hit.
+  /// Upper limit of t. When a hit is certain, the limit is lowered to that hit's upper bound.
   float limit;
   bool is_sure = false;       ///< the ray certainly hits an instance
   bool ends_if_sure = false;  ///< the first certain hit ends the search
-  /// Instances that the ray may hit, with lower bounds of t.
+  /// An instance that the ray may hit, at t >= `first`.
   struct Candidate {
     std::uint32_t instance;
     float first;
@@ -36,10 +36,11 @@ struct SingleRay {
   static constexpr std::size_t most_candidates = 64;
   std::array<Candidate, most_candidates> candidates;
   std::size_t candidate_count = 0;
-  std::uint32_t nodes = 0;  ///< visited
+  std::uint32_t nodes = 0;  ///< number of visited nodes
 };
 
-/// Returns false if there are too many candidates. Requires AVX2 and FMA.
+/// Finds the ray's candidates. Returns false if there are more than most_candidates. Requires AVX2
+/// and FMA.
 bool trace_single_avx2(const SingleWorld& world, SingleRay& ray);
 
 }  // namespace minkray

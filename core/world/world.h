@@ -19,25 +19,26 @@ struct SingleRay;
 struct SingleWorld;
 struct SlabRay;
 
-/// Results of up to 64 consecutive rays, in packets of four.
+/// Results of up to 64 consecutive rays, stored in packets of four.
 struct BlockHits {
   std::array<CastPacket, 16> casts;
   std::array<std::uint32_t, 64> instance;
-  std::uint64_t found;  ///< bits of rays that hit, or begin inside
+  std::uint64_t found;  ///< bit i is set if ray i hits an instance or starts inside one
 };
 
-/// Receives the results of many rays in parts, in any order, one result per ray.
+/// Receives the results of many rays: exactly one per ray, in any order, one by one or up to 64 in
+/// one call.
 class HitReceiver {
  public:
   virtual ~HitReceiver() = default;
-  /// `exhausted`: a solver failed to converge at an instance.
+  /// Takes the result of one ray. `exhausted` is true if a cast at any instance did not converge.
   virtual void take(std::size_t ray, const WorldHit& hit, bool exhausted) = 0;
-  /// Results of the rays `first` + i for all bits i of `which`.
+  /// Takes the results of several rays: of ray `first` + i for each bit i that is set in `which`.
   virtual void take(std::size_t first, std::uint64_t which, const BlockHits& hits) = 0;
 };
 
-/// Any number of threads may query a world while no thread changes it. The result of a ray depends
-/// neither on other rays of the batch nor on the BVH, to the last bit.
+/// Any number of threads may query a world while no thread changes it. The result of a ray is
+/// bit-identical for any batch that contains the ray, and for any BVH.
 class World {
  public:
   World() = default;
@@ -66,7 +67,8 @@ class World {
   /// Ignores all of `skip`.
   void all_hits(const WorldRay& ray, std::vector<WorldCrossing>& to, QueryCounts& counts) const;
 
-  /// Finds the first hits of many rays. Large batches and similar neighbours are faster.
+  /// Finds the first hits of many rays. Faster in large batches, and if consecutive rays are
+  /// similar (ray_block.h).
   void closest_hits(const RaySpan& rays, HitReceiver& to, QueryCounts& counts) const;
   /// Sets hits[i] to the result of rays[i].
   void closest_hits(std::span<const WorldRay> rays, std::span<WorldHit> hits,
@@ -79,13 +81,13 @@ class World {
   }
 
   /// Moves all instances: the i-th to pose_of(i). With movement_of, the i-th then moves along
-  /// movement_of(i) while time goes from 0 to 1. Both functions are called from several threads at
-  /// once. Refits the BVH, or rebuilds it if its cost is 1.5 times that after the last build.
+  /// movement_of(i) while time goes from 0 to 1. Several threads call both functions at once.
+  /// Refits the BVH, or rebuilds it if its expected cost is 1.5 times that after the last build.
   void pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
                 const std::function<Movement<double>(std::size_t)>& movement_of = {});
 
   /// Moves one instance but not its box. Before the next query, call pose_all with a pose_of that
-  /// returns this pose.
+  /// returns the new pose for this instance.
   void set_pose(std::size_t i, const Affine<double>& pose) { instances_.set_pose(i, pose); }
 
   const Instances& instances() const { return instances_; }
@@ -106,14 +108,14 @@ class World {
                            std::vector<WorldCrossing>& to, QueryCounts& counts) const;
   void add_shapeless_crossings(const WorldRay& ray, std::vector<WorldCrossing>& to,
                                QueryCounts& counts) const;
-  /// Tries float lanes; returns false if they are inconclusive.
+  /// Tries to decide the ray in float lanes (SIMD); returns false if these are inconclusive.
   bool closer_candidate(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
   SingleRay single_ray(const WorldRay& ray) const;
   SingleWorld single_world() const;
   void closer_hit(const WorldRay& ray, SlabRay& slabs, WorldHit& closest,
                   QueryCounts& counts) const;
-  /// Tests half-spaces and meshes, which are not in the BVH of the shapes. True if one is hit
-  /// before `closest`.
+  /// Tests half-spaces and meshes, which are not in the BVH of the shapes. Returns true if one is
+  /// hit before `closest`.
   bool closer_shapeless(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
   bool closer_half_space(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
   bool closer_mesh(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
@@ -122,27 +124,29 @@ class World {
   /// is_exhausted[i] to 1 if a cast of rays[i] does not converge.
   void closest_shapeless(const RaySpan& rays, std::span<WorldHit> closest,
                          std::span<std::uint8_t> is_exhausted, QueryCounts& counts) const;
-  /// Sets met[i] to 1 or 0.
+  /// Sets met[i] to 1 if a half-space or mesh blocks rays[i], to 0 if not.
   void blocked_by_shapeless(const RaySpan& rays, std::span<std::uint8_t> met,
                             QueryCounts& counts) const;
 
-  /// Returns false, without results, if the rays do not form a block.
+  /// Traces 16 to 64 rays that form a block: from one point in similar directions, so that they
+  /// share one traversal of the BVH (ray_block.h). Returns false, without results, if they do not.
   bool answer_block(const RaySpan& rays, std::size_t first, HitReceiver& to,
                     QueryCounts& counts) const;
-  /// Casts at most rays_of_stream incoherent rays, numbered from `first` by the caller.
+  /// Casts a stream: up to rays_of_stream rays in any directions, which traverse the BVH in turns.
+  /// Reports the i-th ray to `to` as ray `first` + i.
   void answer_stream(const RaySpan& rays, std::size_t first, HitReceiver& to,
                      QueryCounts& counts) const;
   void occluded_in_stream(const RaySpan& rays, std::span<std::uint8_t> met,
                           QueryCounts& counts) const;
-  /// True if float lanes can screen pairs.
+  /// True if the processor and the options allow screening instances in float lanes (screen.h).
   bool has_screen() const;
   auto prefetching() const {
     return [this](std::uint32_t instance) { instances_.prefetch(instance); };
   }
 
   Instances instances_;
-  Bvh bvh_;         ///< of instances with shapes
-  Bvh mesh_boxes_;  ///< of meshes; indices are those in Instances::meshes()
+  Bvh bvh_;         ///< contains the instances with shapes
+  Bvh mesh_boxes_;  ///< contains the meshes, by their index in Instances::meshes()
   BvhBuild build_ = BvhBuild::quality;
   /// Left out of the BVH; by the instances that they are the same as.
   std::vector<RepeatedInstance> repeated_;
@@ -152,7 +156,7 @@ class World {
   FormKind kind_of_all_ = FormKind::none;
 };
 
-/// Largest number of rays of a stream: their data fit in the cache.
+/// Maximum number of rays in a stream, so that their data fit in the cache.
 inline constexpr std::size_t rays_of_stream = 1024;
 
 }  // namespace minkray

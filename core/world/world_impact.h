@@ -8,8 +8,8 @@
 
 namespace minkray {
 
-/// A is the moving body. Tests all bodies with a bit of `mask` in their category. `known` is the
-/// earliest impact found with other bodies.
+/// Returns the first impact of `moving` (A of the result) with a body whose category shares a bit
+/// with `mask`. `known` is the earliest impact already found with other bodies.
 EarliestImpact first_impact(const PartsBody& moving, const RigidMotion& motion,
                             const ContactWorld& world, double t_max, std::uint32_t mask,
                             const EarliestImpact& known);

@@ -14,7 +14,7 @@ namespace minkray {
 
 /// Cost of queries, and how often a solver failed to converge, summed over rays.
 struct QueryCounts {
-  std::uint64_t nodes = 0;  ///< visited nodes; a block of rays counts one visit
+  std::uint64_t nodes = 0;  ///< visited BVH nodes; a block of rays counts each visit once
   std::uint64_t casts = 0;  ///< casts at single shapes
   std::uint64_t iterations = 0;
   std::uint64_t supports = 0;
@@ -24,7 +24,7 @@ struct QueryCounts {
 
   std::uint64_t answered_by(Path path) const { return by_path[static_cast<std::size_t>(path)]; }
 
-  /// Returns the latest path that any cast needed; without casts, the first path.
+  /// Returns the latest stage (Path) that any cast needed; without casts, the first one.
   Path furthest_path() const {
     std::size_t path = path_count - 1;
     while (path > 0 && by_path[path] == 0) --path;
@@ -45,7 +45,7 @@ struct QueryCounts {
     nodes += parts.nodes;
     add_filtered(parts.triangles);
   }
-  /// Adds casts answered by the closed form.
+  /// Adds `count` casts that the closed form decided.
   void add_filtered(std::uint64_t count) {
     casts += count;
     by_path[static_cast<std::size_t>(Path::filter)] += count;
@@ -65,9 +65,8 @@ struct QueryCounts {
 /// The first instance that a ray meets.
 struct WorldHit {
   std::uint32_t instance = no_instance;
-  CastResult<double>
-      cast;  ///< result for the instance (hit or inside); status miss if there is none
-  std::uint32_t part = no_part;  ///< of a mesh: the triangle
+  CastResult<double> cast;       ///< hit or inside; miss if the ray meets no instance
+  std::uint32_t part = no_part;  ///< number of the triangle, for a mesh
 
   static WorldHit miss() {
     WorldHit none;
@@ -75,7 +74,7 @@ struct WorldHit {
     return none;
   }
   bool found() const { return instance != no_instance; }
-  /// True if another instance, met at t, comes before this one.
+  /// True if a hit of the instance `other` at t comes before this hit.
   bool yields_to(std::uint32_t other, double t) const {
     return !found() || t < cast.t() || (t == cast.t() && other < instance);
   }
@@ -98,14 +97,14 @@ struct WorldRay {
   double time = 0;
   RayKinds kinds = all_ray_kinds;
 
-  /// True if the ray ignores the instance.
+  /// True if the ray ignores the instance: it is skipped, or not shown to the ray's kinds.
   bool passes(const Instances& instances, std::uint32_t instance) const {
     return instance == skip || !instances.is_shown_to(instance, kinds);
   }
 };
 
-/// View of the caller's rays, a fixed number of bytes apart: WorldRays, or plain rays. Plain rays
-/// skip no instance, have time 0 and are of all kinds.
+/// View of the caller's array of rays, a fixed number of bytes apart: WorldRays or plain rays.
+/// Plain rays skip no instance, have time 0 and are of all kinds.
 class RaySpan {
  public:
   RaySpan(std::span<const WorldRay> rays)

@@ -23,12 +23,12 @@
 namespace minkray {
 namespace {
 
-/// Limit of pixels, since encoders count bytes in an int. For a crop of a larger picture, only the
-/// crop's pixels count.
+/// Maximum number of pixels, since encoders count bytes in an int. For a crop of a larger picture,
+/// only the crop's pixels count.
 constexpr int max_pixels = 1 << 27;
 constexpr int max_side = 1 << 16;
 
-/// Reads whole numbers between separators, without anything else.
+/// Parses whole numbers with a separator between them; nullopt if there is anything else.
 std::optional<std::vector<int>> integers(const std::string& text, char separator) {
   std::vector<int> numbers;
   const char* at = text.data();
@@ -103,7 +103,7 @@ void ImageArguments::add_to(const Verb& verb, const std::string& suffix) {
       .takes("X0,Y0,X1,Y1");
   // Takes the seed as text, since CLI11 clamps values that are too large.
   verb.add_option("--seed", seed, "Random seed (0 to 2^64 - 1)").takes("N").show_default();
-  verb.add_flag("-q,--quiet", quiet, "No progress, no report").excludes(verbose);
+  verb.add_flag("-q,--quiet", quiet, "Print neither progress nor a report").excludes(verbose);
 }
 
 void ImageArguments::choose_output(const std::string& suffix) {
@@ -128,7 +128,7 @@ Option add_scene_option(const Verb& verb, std::string& scene) {
 
 void add_camera_file_option(const Verb& verb, std::string& camera_file) {
   verb.add_option("--camera-file", camera_file,
-                  "JSON file with a calibrated lens and picture size for the camera")
+                  "JSON file of a calibrated camera: its lens and picture size")
       .reads_file();
 }
 
@@ -152,7 +152,8 @@ void check_outputs(const std::vector<std::string>& outputs) {
 
 namespace {
 
-/// Text of a lens for a hash: shares of a picture belong together only if they had the same lens.
+/// Text of a lens for the hash of a scene. Part files are merged only if their hashes, and so their
+/// lenses, are equal.
 std::string lens_text(const CalibratedCamera::Numbers& numbers) {
   std::vector<double> all = {double(numbers.model == CalibratedCamera::Model::fisheye),
                              numbers.fx,

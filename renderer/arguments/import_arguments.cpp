@@ -12,8 +12,8 @@ std::string scene_argument() {
 }
 
 void add_other_files(const Verb& verb, ImportOptions& options) {
-  // No names of built-in scenes here: they would be searched for before unknown options are
-  // reported.
+  // Accepts no names of built-in scenes: the search for them would come before the error about an
+  // unknown option.
   verb.add_option("others", options.others,
                   "More files to add to the scene\n"
                   "Camera and lights come from the first file that is not a robot file\n"
@@ -54,15 +54,17 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
             options.meshes = name == "exact" ? MeshChoice::exact : MeshChoice::hull;
           },
           "How to represent robot meshes:\n"
-          "exact: triangles (default)\n"
-          "hull: convex hulls (default with --split, and for contacts of MJCF robots)")
+          "exact: triangles\n"
+          "hull: convex hulls\n"
+          "Default: hull with --split, and for distances and collisions of MJCF robots; "
+          "otherwise exact")
       .one_of({"hull", "exact"})
       .group(group);
   verb.add_option("--keyframe", options.keyframe, "Keyframe to use, by name or number (MJCF)")
       .takes("NAME")
       .group(group);
   verb.add_option("--joint", options.joints,
-                  "Joint value (rad or length); repeatable\n"
+                  "Joint value (rad, or scene units for sliding joints); repeatable\n"
                   "Ball and free joints take several values, comma-separated")
       .takes("NAME=VALUE")
       .one_value_each()

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Subcommands of the command line, each in its own verb_*.cpp. This is the only list of them, with
-// the program of each. The program `minkray` contains few of them, so that it compiles fast
-// (docs/decisions/build.md); for the others it runs a program in the same folder.
+// The list of all commands, with the program that contains each. Each command has its own
+// verb_*.cpp. The program `minkray` contains few commands, so that it compiles fast
+// (docs/decisions/build.md); for the others it runs another program from the same folder.
 #pragma once
 
 #include <span>
@@ -18,7 +18,7 @@ struct VerbRow {
   std::string_view doc;
   const char* program;
   std::string_view examples[2];
-  std::string_view exit_codes = {};  ///< line of help, for a command with codes of its own
+  std::string_view exit_codes = {};  ///< line of help, for commands with exit codes of their own
 };
 
 /// Rows in the order of --help.
@@ -33,7 +33,7 @@ inline constexpr VerbRow verbs[] = {
      {"minkray merge part1.exr part2.exr -o picture.png",
       "minkray merge parts/*.exr -o picture.exr --allow-partial"}},
     {"heatmap",
-     "Show the cost of each pixel of a scene",
+     "Draw the cost of each pixel of a scene, such as solver iterations",
      "minkray",
      {"minkray heatmap showcase",
       "minkray heatmap showcase --side-by-side paper,auto -o cost.png"}},
@@ -46,11 +46,11 @@ inline constexpr VerbRow verbs[] = {
      "minkray-compare",
      {"minkray compare shape-zoo", "minkray compare scene.json --rays 10000 -o gaps.png"}},
     {"cast",
-     "Answer ray, shape and distance queries, one JSON object per line",
+     "Run ray casts, shape casts and distance queries, one JSON object per line",
      "minkray-tools",
      {"minkray cast queries.jsonl", "minkray cast - --certify < queries.jsonl"}},
     {"scan",
-     "Scan a scene with a sensor: lidar, depth camera",
+     "Simulate a lidar or a depth camera in a scene",
      "minkray-tools",
      {"minkray scan scene.json --pattern spinning:16x360 -o sweep.ply",
       "minkray scan robot.urdf --pinhole camera.json --on head -o depth.png"}},
@@ -100,7 +100,7 @@ inline constexpr VerbRow verbs[] = {
      {"minkray import robot.urdf -o robot.json",
       "minkray import model.xml --keyframe home -o model.json"}},
     {"info",
-     "Describe a scene, or list shapes and the schema",
+     "Describe a scene, list all shapes, or print the schema of scene files",
      "minkray",
      {"minkray info robot.urdf", "minkray info --shapes"}},
     {"league",
@@ -117,9 +117,9 @@ inline constexpr VerbRow verbs[] = {
      {"minkray man render", "minkray man"}},
 };
 
-/// Adds a subcommand to the parser, which calls it within Parser::parse. The command writes results
-/// to stdout and all else to stderr. The command may set the exit code (done by default) or throw
-/// one of renderer/base/errors.h.
+/// Adds a command to the parser; Parser::parse then runs it. The command writes results to stdout
+/// and everything else to stderr. The command may set the exit code (default: done) or throw an
+/// exception from renderer/base/errors.h.
 using AddVerb = void (*)(Parser& parser, ExitCode& exit_code);
 
 struct VerbHere {
@@ -127,8 +127,8 @@ struct VerbHere {
   AddVerb add;
 };
 
-/// Commands of this program itself. Defined once for `minkray` (verbs_of_pictures.cpp), and once
-/// for the programs with all commands (verbs_of_tools.cpp).
+/// Commands contained in this program. Defined in verbs_of_pictures.cpp for the program `minkray`,
+/// and in verbs_of_tools.cpp for programs that contain all commands.
 std::span<const VerbHere> verbs_here();
 
 void add_cast(Parser& parser, ExitCode& exit_code);

@@ -254,7 +254,9 @@ ExitCode cast(const CastVerbOptions& options) {
 void add_cast(Parser& parser, ExitCode& exit_code) {
   const Verb verb = parser.add_verb("cast");
   const auto options = std::make_shared<CastVerbOptions>();
-  verb.add_option("file", options->file, "A file of queries, - for stdin").required().reads_file();
+  verb.add_option("file", options->file, "File of queries, one JSON object per line; - for stdin")
+      .required()
+      .reads_file();
   add_solver_option(verb, options->solver);
   verb.add_option("--subalgorithm", options->subalgorithm, "Distance subalgorithm of GJK")
       .one_of(subalgorithm_names())

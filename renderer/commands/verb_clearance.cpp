@@ -142,10 +142,10 @@ void add_clearance(Parser& parser, ExitCode& exit_code) {
   verb.add_option("robot", options->robot, "Robot file: " + foreign_formats())
       .required()
       .reads_file();
-  verb.add_option(
-          "--path", options->import.joint_rows,
-          "Joint path (CSV): a row of joint names, then rows of values; linear between rows\n"
-          "Optional column \"time\" (s)\nWithout --path the robot does not move")
+  verb.add_option("--path", options->import.joint_rows,
+                  "Joint path (CSV): a row of joint names, then rows of values\n"
+                  "Joints move linearly between rows\n"
+                  "Optional column \"time\" (s)\nWithout --path the robot does not move")
       .reads_file();
   verb.add_option("--obstacle", options->obstacles,
                   "Obstacle at rest: a scene or robot file; repeatable")

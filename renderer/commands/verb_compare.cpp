@@ -23,7 +23,7 @@ void add_compare(Parser& parser, ExitCode& exit_code) {
                   "Rays per object; default: 100000 (fewer above 200 objects)")
       .between(1, 1 << 30);
   verb.add_option("--directions", options->directions,
-                  "Support directions of the first meshes; default: 500 (100 above 500 objects)")
+                  "Support directions for the initial meshes; default: 500 (100 above 500 objects)")
       .between(20, 1 << 20);
   verb.add_option(
           "-o,--output", image.outputs,
@@ -39,7 +39,7 @@ void add_compare(Parser& parser, ExitCode& exit_code) {
   verb.add_option("--seed", image.seed, "Random seed (0 to 2^64 - 1)").takes("N").show_default();
   add_solver_option(verb, image.solver);
   verb.add_flag("--json", options->json, "Print JSON, with histograms of the gaps");
-  verb.add_flag("-q,--quiet", image.quiet, "No progress");
+  verb.add_flag("-q,--quiet", image.quiet, "Print no progress");
   verb.on_call([options, &exit_code] {
     with_threads(options->image.threads, [&] { compare(*options, exit_code); });
   });

@@ -119,7 +119,7 @@ void add_field(Parser& parser, ExitCode&) {
                   "Width of the picture in scene units; default: shows all objects")
       .between(0.0, 1e300);
   verb.add_option("--probe", options->probe,
-                  "Shape file (JSON): move this shape over the plane, instead of a point")
+                  "JSON file of a shape to move over the plane instead of a point")
       .reads_file();
   verb.add_option("-r,--resolution", options->resolution, "Picture size in pixels")
       .takes("WxH")
@@ -128,7 +128,7 @@ void add_field(Parser& parser, ExitCode&) {
   verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")
       .between(0, 1024)
       .show_default();
-  verb.add_flag("-q,--quiet", options->quiet, "No report");
+  verb.add_flag("-q,--quiet", options->quiet, "Print no report");
   verb.on_call([options] { with_threads(options->threads, [&] { field(*options); }); });
 }
 

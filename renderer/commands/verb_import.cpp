@@ -53,7 +53,7 @@ void add_import(Parser& parser, ExitCode&) {
   verb.add_option("-r,--resolution", options->resolution,
                   "Picture size for placing the camera (default 960x720)")
       .takes("WxH");
-  verb.add_flag("-q,--quiet", options->quiet, "No report");
+  verb.add_flag("-q,--quiet", options->quiet, "Print no report");
   verb.on_call([options] { import(*options); });
 }
 

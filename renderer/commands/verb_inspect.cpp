@@ -36,7 +36,7 @@ void add_inspect(Parser& parser, ExitCode& exit_code) {
       .between(0, 1024)
       .show_default();
   add_solver_option(verb, image.solver);
-  verb.add_option("--beside", options->beside, "Second solver, for comparison")
+  verb.add_option("--beside", options->beside, "Second solver, shown for comparison")
       .one_of(solver_names())
       .show_default();
   verb.add_option("--pairs", options->pairs, "Number of object pairs to show distances for")
@@ -51,7 +51,7 @@ void add_inspect(Parser& parser, ExitCode& exit_code) {
   verb.add_option("--port", options->port, "Port of --serve; 0: any free port")
       .between(0, 65535)
       .show_default();
-  verb.add_flag("-q,--quiet", image.quiet, "No progress, no report");
+  verb.add_flag("-q,--quiet", image.quiet, "Print neither progress nor a report");
   verb.on_call([options, &exit_code] {
     with_threads(options->image.threads, [&] { inspect(*options, exit_code); });
   });

@@ -45,10 +45,12 @@ void add_league(Parser& parser, ExitCode&) {
   verb.add_option("--limit", words->limit, "Time limit per query in seconds")
       .between(0.01, 3600.0)
       .show_default();
-  verb.add_option("-o,--html", words->html, "HTML report to write: cases by solver").writes_file();
+  verb.add_option("-o,--html", words->html,
+                  "HTML report to write: a table of all cases and solvers")
+      .writes_file();
   verb.add_option("--json", words->json, "JSON file to write: all results and verdicts")
       .writes_file();
-  verb.add_flag("-q,--quiet", words->quiet, "No progress");
+  verb.add_flag("-q,--quiet", words->quiet, "Print no progress");
   verb.on_call([words] { run_beside("league", "minkray-league", own_words()); });
 }
 

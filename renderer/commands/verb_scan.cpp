@@ -101,7 +101,8 @@ void read_options(ScanVerbOptions& options) {
   }
 }
 
-/// Warns of rays that begin inside a body, which may contain a sensor without a pose.
+/// Warns of rays that start inside a body. Often the sensor's pose is missing, and the body
+/// contains the origin.
 void warn_of_inside(const Scan& scan, int returns) {
   std::size_t rays = 0, inside = 0;
   for (std::size_t first = 0; first < scan.echoes.size(); first += std::size_t(returns), ++rays)
@@ -178,7 +179,8 @@ void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
                   "(lowest and highest elevation, first and last azimuth, in degrees)\n"
                   "or a lidar model: " +
                       models +
-                      "\nor a file: .csv (time, azimuth, zenith), .json (elevations), .mat3x4f")
+                      "\nor a file: .csv (time, azimuth, zenith), .json (elevations), "
+                      ".mat3x4f (one 3 x 4 pose matrix per ray, RobotecGPULidar)")
       .group(heading)
       .reads_file()
       .takes("PATTERN");
@@ -196,7 +198,7 @@ void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
                   "Sensor path (CSV): time (s), x, y, z, optional qx, qy, qz, qw")
       .group(heading)
       .reads_file();
-  verb.add_option("--start", options.scan.start, "Start of the sweep, in seconds")
+  verb.add_option("--start", options.scan.start, "Time at which the sweep starts (s)")
       .group(heading)
       .between(-1e9, 1e9);
   verb.add_option("--sweep", options.sweep, "Seconds per revolution of a lidar")
@@ -235,17 +237,17 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .group(heading)
       .one_of(echo_orders)
       .show_default();
-  verb.add_option(
-          "--divergence", options.scan.divergence,
-          "Full angle of the beam (rad); echoes are then the first hits of --beam-rays rays")
+  verb.add_option("--divergence", options.scan.divergence,
+                  "Full angle of the beam (rad)\n"
+                  "Above 0, the echoes are the first hits of --beam-rays rays in the beam")
       .group(heading)
       .between(0.0, 1.0);
-  verb.add_option("--beam-rays", options.scan.beam_rays, "Rays per beam")
+  verb.add_option("--beam-rays", options.scan.beam_rays, "Rays per beam, with --divergence")
       .group(heading)
       .between(1, 4096)
       .show_default();
   verb.add_option("--resolution", options.scan.resolution,
-                  "Minimum distance between two echoes of a beam (scene units)")
+                  "Minimum distance between two echoes of a beam, with --divergence (scene units)")
       .group(heading)
       .between(0.0, 1e9)
       .show_default();
@@ -274,7 +276,7 @@ void add_scan(Parser& parser, ExitCode&) {
   verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")
       .between(0, 1024)
       .show_default();
-  verb.add_flag("-q,--quiet", options->quiet, "No progress");
+  verb.add_flag("-q,--quiet", options->quiet, "Print no progress");
   add_import_options(verb, options->import);
   verb.on_call([options] { with_threads(options->threads, [&] { run(*options); }); });
 }

@@ -91,7 +91,7 @@ Json json_of(const Judged& judged, const VerifyCell& cell) {
   return json;
 }
 
-/// The first line, and the first stretch if there is one.
+/// Returns the first line of the verdict's text, joined with the second line if there is one.
 std::string title_of(const std::string& text) {
   const std::size_t first = text.find('\n'), second = text.find('\n', first + 1);
   if (second == text.npos) return text.substr(0, first);
@@ -110,7 +110,7 @@ void write_outputs(const VerifyOptions& options, const Judged& judged, const Ver
             provable(verdict, plan.path, cell.cell.bodies, cell.cell.pairs, options.referee);
         write_text(file, proof_text(proof, plan.path, inputs));
       } catch (const BadInput& error) {
-        // Other verdicts have an exit code of their own.
+        // Other verdicts already end with an exit code other than 0.
         if (verdict.status == MotionStatus::free) throw;
         std::cerr << error.what() << '\n';
       }
@@ -128,14 +128,15 @@ void write_outputs(const VerifyOptions& options, const Judged& judged, const Ver
   }
 }
 
-/// A plan in the pipeline, from its input to its printed verdict.
+/// A plan in the pipeline, from input to printed verdict.
 struct Passing {
   std::string name, text;
   std::optional<Judged> judged;
   std::exception_ptr error;
 };
 
-/// Loads a plan by load() and judges it; an error is kept for when its turn to be printed comes.
+/// Loads a plan with load() and judges it. Stores an error, to be printed when the plan's turn
+/// comes.
 template <class Load>
 void judge(Passing& passing, const VerifyCell& cell, const VerifyOptions& options,
            const Load& load) {
@@ -151,8 +152,7 @@ std::size_t plans_at_once() {
   return static_cast<std::size_t>(std::max(thread_count(), 1));
 }
 
-/// Reads one plan per line and prints one verdict per line; the verdict on an invalid plan is its
-/// error.
+/// Reads one plan per line and prints one verdict per line, or the error of an invalid plan.
 void serve(const VerifyOptions& options, const VerifyCell& cell) {
   std::size_t number = 0;
   const auto read = [&]() -> std::shared_ptr<Passing> {
@@ -191,7 +191,7 @@ void serve(const VerifyOptions& options, const VerifyCell& cell) {
   });
 }
 
-/// Shortens the notes on files, which may be hundreds, most of one kind.
+/// Prints the notes on files. Prints only the first few unless `all` is set: there may be hundreds.
 void tell_notes(const std::vector<std::string>& notes, bool all) {
   constexpr std::size_t most = 3;
   for (std::size_t i = 0; i < notes.size() && (all || i < most); ++i)
@@ -269,7 +269,7 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
       .reads_file();
   inputs.allowed.add_options(verb);
   verb.add_option("--state", inputs.state,
-                  "SRDF state with values for joints that the plan does not name")
+                  "SRDF state with the values of joints that are missing from the plan")
       .takes("NAME");
   verb.add_option("--group", inputs.group,
                   "SRDF group whose joints are the columns of an .npy file")
@@ -290,12 +290,13 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
       .between(1e-9, 1.0)
       .show_default();
   verb.add_option("--budget", options->budget,
-                  "Maximum distance queries per pair of bodies and step (from one row of the plan "
-                  "to the next)\nIf more are needed, the verdict is `undecided`")
+                  "Maximum number of distance queries for each pair of bodies in each step\n"
+                  "A step leads from one row of the plan to the next\n"
+                  "If more queries are needed, the verdict is `undecided`")
       .between(std::size_t{1}, std::size_t{1'000'000'000})
       .show_default();
   verb.add_flag("--serve", options->serve,
-                "Read one plan per line from stdin, write a verdict per line");
+                "Read one plan per line from stdin, and write one verdict per line to stdout");
   verb.add_option("-s,--samples", options->samples, "Samples per pixel of a picture")
       .between(1, 1 << 20)
       .show_default();

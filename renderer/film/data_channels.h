@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// AOVs: data per pixel other than colour. Most come from one unfiltered ray through the pixel's
-// centre: where it meets the scene, and the solver's cost. Some are means over all samples of the
-// picture.
+// AOVs (data channels): data per pixel other than the picture's colour. Most come from one
+// unfiltered ray through the pixel's centre: its first hit, and the solver's cost. Some are means
+// over all samples of the pixel.
 #pragma once
 
 #include <array>
@@ -14,15 +14,15 @@
 
 namespace minkray {
 
-/// A channel that may be requested, and the planes of an OpenEXR file it becomes.
+/// A channel that may be requested, and its planes in an OpenEXR file.
 struct DataChannelDescription {
   std::string_view name;
-  std::string_view planes;  ///< after the name: "" for one plane, "XYZ" for .X, .Y and .Z
+  std::string_view planes;  ///< suffixes: "" for one plane, "XYZ" for .X, .Y and .Z
   std::string_view doc;
   enum class By : unsigned char { centre, samples } by = By::centre;
 };
 
-/// The list of all there are.
+/// All data channels.
 inline constexpr std::array data_channels = {
     DataChannelDescription{"Z", "", "depth along the camera's axis; infinite for a miss"},
     DataChannelDescription{"dist", "", "distance from the camera; infinite for a miss"},
@@ -35,12 +35,14 @@ inline constexpr std::array data_channels = {
     DataChannelDescription{"gjk.supports", "",
                            "support points, summed over all casts of the ray (integer)"},
     DataChannelDescription{"gjk.gap", "",
-                           "width of the interval that encloses the hit; 0 for a miss"},
+                           "width of the bounds of the hit's ray parameter t; 0 for a miss"},
     DataChannelDescription{"albedo", "RGB", "colour of the surface's material; 0 for a miss"},
     DataChannelDescription{"emission", "RGB", "light emitted by the surface; 0 for a miss"},
     DataChannelDescription{"thickness", "", "length of the ray inside the object; 0 for a miss"},
     DataChannelDescription{
-        "uv", "UV", "texture coordinates of the mesh, or else of the mapping `radial`; 0 if none"},
+        "uv", "UV",
+        "texture coordinates of the mesh; without any, longitude and latitude around the object's "
+        "origin; 0 for a miss"},
     DataChannelDescription{
         "motion", "XY",
         "motion of the hit point while the shutter is open, in pixels; 0 for a miss"},
@@ -56,25 +58,28 @@ inline constexpr std::array data_channels = {
         "Cryptomatte of all objects by name (CryptoObject00.R to 02.A, names in the header)",
         DataChannelDescription::By::samples},
     DataChannelDescription{
-        "status", "", "0 miss, 1 hit, 2 inside, 3 exhausted: a cast did not converge (integer)"},
+        "status", "",
+        "0 miss, 1 hit, 2 ray starts inside a shape, 3 a cast did not converge (integer)"},
 };
 
-/// The names between commas, or "all". Throws WrongUsage, with the names there are, for any other;
-/// a name given twice counts once.
+/// Splits a comma-separated list of channel names; "all" means every channel. Throws WrongUsage,
+/// with a list of the valid names, for an unknown name. Drops duplicates.
 std::vector<std::string_view> parse_data_channels(const std::string& list);
 
-/// True if the channel's planes are integers.
+/// True if the channel's planes store integers.
 bool has_integers(std::string_view channel);
 
-/// True if direct, indirect or variance are among the names: RenderOptions::light_channels.
+/// True if the names include direct, indirect or variance, which need
+/// RenderOptions::light_channels.
 bool are_light_channels_wanted(const std::vector<std::string_view>& channels);
 
-/// The planes of those of the channels that a rendering with light_channels has.
+/// Returns the planes of the channels that come from a rendering with light_channels.
 std::vector<ExrPlane> light_planes(const Rendering& rendering,
                                    const std::vector<std::string_view>& channels);
 
-/// The planes of those channels that come from rays through pixels' centres, of the region in
-/// `options`; all threads. Incomplete if the watch returned stop.
+/// Casts one ray through the centre of each pixel in the region of `options`, in all threads, and
+/// returns the planes of the channels that come from these rays. Incomplete if the watch returned
+/// stop.
 std::vector<ExrPlane> measure_data_channels(const Scene& scene, const World& world,
                                             const std::vector<std::string_view>& channels,
                                             const RenderOptions& options,

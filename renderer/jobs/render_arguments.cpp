@@ -38,7 +38,7 @@ void RenderArguments::add_to(const Verb& verb) {
   }
   verb.add_option("--integrator", integrator, kinds).one_of(names).show_default();
   verb.add_option("--max-depth", max_depth,
-                  "Maximum bounces for --integrator path; 0: emissive objects only")
+                  "Maximum bounces for --integrator path; 0: only emissive objects are visible")
       .between(0, 1000)
       .show_default();
   verb.add_option("--bounces", bounces,
@@ -79,8 +79,8 @@ void RenderArguments::add_to(const Verb& verb) {
     channels += "\n" + std::string(channel.name) + ": " + std::string(channel.doc);
   verb.add_option("--aov", aov,
                   "Extra EXR channels (AOVs), comma-separated, or all\n"
-                  "direct, indirect, variance and cryptomatte use all samples; the others use "
-                  "one unfiltered ray per pixel:" +
+                  "Most come from one unfiltered ray per pixel; direct, indirect, variance and "
+                  "cryptomatte come from all samples\nChannels:" +
                       channels)
       .takes("NAMES");
   verb.add_option("--tile", tile, "Render tile I of N, for minkray merge")

@@ -74,7 +74,9 @@ TEST(LibraryAllHits, of_a_mesh_are_all_entries_and_exits) {
       const auto hits = scene.all_hits(mk::Ray{{-5, y, z}, {1, 0, 0}});
       int of_ring = 0;
       for (const mk::Crossing& hit : hits[0])
-        if (hit.object == object) EXPECT_EQ(hit.leaves, of_ring++ % 2) << y << ' ' << z;
+        if (hit.object == object) {
+          EXPECT_EQ(hit.leaves, of_ring++ % 2) << y << ' ' << z;
+        }
       EXPECT_EQ(of_ring % 2, 0) << y << ' ' << z;
     }
   for (int x = -6; x <= 6; ++x)
@@ -85,8 +87,12 @@ TEST(LibraryAllHits, of_a_mesh_are_all_entries_and_exits) {
         if (hit.object == object) leavings += hit.leaves, ++of_ring;
       EXPECT_EQ(of_ring, 2 * leavings);
       const int reach = std::max(std::abs(x), std::abs(y));
-      if (reach == 5) EXPECT_EQ(of_ring, 2) << x << ' ' << y;
-      if (reach < 4) EXPECT_EQ(of_ring, 0);
+      if (reach == 5) {
+        EXPECT_EQ(of_ring, 2) << x << ' ' << y;
+      }
+      if (reach < 4) {
+        EXPECT_EQ(of_ring, 0);
+      }
     }
 }
 
@@ -140,7 +146,9 @@ TEST(LibraryAllHits, have_the_same_bits_for_any_number_of_threads) {
     ASSERT_EQ(ts_of(alone[0]), ts_of(a[i]));
     const mk::Hit first = scene.cast(rays[i]);
     ASSERT_EQ(first.found(), a[i].size() > 0);
-    if (first.found()) ASSERT_EQ(first.t, a[i][0].t);
+    if (first.found()) {
+      ASSERT_EQ(first.t, a[i][0].t);
+    }
   }
 }
 
