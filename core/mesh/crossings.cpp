@@ -67,8 +67,8 @@ bool sort_exactly(const TriangleMesh& mesh, const Ray<double>& ray, std::vector<
   return has_same_plane;
 }
 
-/// How often the mesh winds around the ray's begin: each entry that follows is one less. Requires
-/// all hits up to t = infinity.
+/// Returns how often the mesh winds around the ray's origin. Each later entry counts one less.
+/// Requires all hits up to t = infinity.
 int turns_at_begin(const std::vector<PartHit>& hits) {
   int turns = 0;
   for (const PartHit& hit : hits) turns += hit.is_back ? 1 : -1;

@@ -213,7 +213,7 @@ MeshCast cast_last_exit(const PosedMesh& posed, const Ray<double>& ray, double l
   MeshCast exit = cast_of(posed, near, last, loss);
   if (exit.cast.status != Status::hit) return exit;
   exit.cast.normal *= -1;
-  // Another triangle may be the last one, as far as the errors tell.
+  // Within the errors, another triangle may be the last one.
   for (const PartHit& hit : hits) {
     if (hit.t + hit.error < last.t - last.error) continue;
     const CastResult<double> other = cast_of(posed, near, hit, loss).cast;

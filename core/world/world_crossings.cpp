@@ -54,7 +54,7 @@ void World::add_shape_crossings(const WorldRay& ray, std::uint32_t instance,
   if (entry.status == Status::hit) add(entry, false);
   CastResult<double> exit = cast_exit_within(shape, seen, options_);
   counts.add_cast(exit);
-  // By rounding, a ray that only touches the shape leaves it at once.
+  // A ray that only touches the shape leaves it at once, due to rounding.
   if (exit.status == Status::miss)
     exit = entry.status == Status::hit ? entry : at_origin(unit<double>(seen.direction));
   if (exit.status == Status::hit) add(exit, true);

@@ -348,8 +348,8 @@ MINKRAY_API int minkray_scene_occluded_rays(minkray_scene scene, const minkray_r
 
 /* Finds where rays leave one object for the last time: MINKRAY_HIT at the greatest t with a point
  * of the object, MINKRAY_INSIDE if they end in it at t_max, MINKRAY_MISS if they miss it. A ray may
- * have left a mesh before, and entered it again. Of an open mesh, which has no inside, the result
- * is the last triangle that is hit. Normals point out of the object, of a mesh along the ray. Not
+ * have left a mesh before, and entered it again. An open mesh has no inside: the result is the last
+ * triangle that is hit. Normals point out of the object; normals of a mesh point along the ray. Not
  * for half-spaces, which are unbounded. */
 MINKRAY_API int minkray_scene_exit(minkray_scene scene, uint32_t object, const minkray_ray* rays,
                                    size_t count, minkray_hit* hits, const minkray_options* options);

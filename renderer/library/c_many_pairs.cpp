@@ -55,7 +55,7 @@ SignedDistance distance_of(const PosedBody& a, const PosedBody& b, PairMemory* m
   if (are_shapes(a, b) && memory)
     return signed_distance(a.shape(), a.pose(), b.shape(), b.pose(), *memory, options);
   if (!memory) return signed_distance(a.parts(), a.pose(), b.parts(), b.pose(), options);
-  // Of meshes the memory keeps the nearest parts, as features.
+  // Keeps the nearest parts of meshes in the memory, as features.
   PartPair parts;
   if (memory->count == 1)
     parts = {static_cast<std::uint32_t>(memory->feature_a[0]),

@@ -64,7 +64,7 @@ struct Boundary {
 Boundary next_boundary(const World& world, const WorldRay& ray, const Inside& inside,
                        QueryCounts& counts);
 
-/// The same for several rays, with the bodies around each. Exits from one body are cast together.
+/// Same for several rays, with the bodies around each ray. Casts exits from one body together.
 void next_boundaries(const World& world, std::span<const WorldRay> rays,
                      std::span<const Inside* const> insides, std::span<Boundary> nexts,
                      HalfExtents& half_extents, QueryCounts& counts);

@@ -137,7 +137,7 @@ void PathTransport::Wave::scatter(Path& path, const Point& point) {
   ++path.depth;
   ++(sample->is_sharp ? counts_.mirrored : counts_.scattered);
   if (path.depth < (path.only_sharp ? sure_sharp_depth : sure_depth)) return;
-  // The root: an end spares the rest of the path, but makes what goes on brighter and rarer.
+  // Uses the root: ending a path saves its rest, but makes the surviving paths brighter and rarer.
   const double chance = std::sqrt(std::min(path.throughput.maxCoeff() * path.gathered, 1.0));
   if (chance >= 1) return;
   path.goes_on = path.sampler.next()[0] < chance;

@@ -65,8 +65,8 @@ Surface comb(std::uint32_t teeth) {
   return comb;
 }
 
-/// How often a closed mesh winds around a point: its solid angles over 4 pi (van Oosterom and
-/// Strackee 1983), in long double; NaN for points close to the surface.
+/// Returns how often a closed mesh winds around a point: its solid angles over 4 pi (van Oosterom
+/// and Strackee 1983), in long double; NaN for points close to the surface.
 long double winding(const TriangleMesh& mesh, const Vec3<long double>& at) {
   long double sum = 0;
   for (std::uint32_t i = 0; i < mesh.size(); ++i) {
@@ -88,7 +88,8 @@ long double winding(const TriangleMesh& mesh, const Vec3<long double>& at) {
 
 __extension__ using Quad = __float128;
 
-/// Where the ray's line passes the plane of a triangle, in quadruple precision, to `rounding`.
+/// Finds where the ray's line passes the plane of a triangle, in quadruple precision, to
+/// `rounding`.
 struct TrueT {
   Quad t, rounding;
 };
@@ -116,8 +117,8 @@ struct Checked {
   int hits = 0, wound = 0, at_edges = 0;
 };
 
-/// Entries and leavings alternate, t and its bounds hold, and between two hits the mesh winds
-/// around the ray as they say.
+/// Entries and leavings alternate, t and its bounds hold, and the winding numbers between two hits
+/// agree with the hits.
 void check(const TriangleMesh& mesh, const Ray<double>& ray, bool begins_outside,
            Checked& checked) {
   const std::vector<PartHit> hits = crossings(mesh, ray);

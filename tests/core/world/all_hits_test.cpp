@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// All hits of rays, beside closed forms of each instance in quadruple precision.
+// Compares all hits of rays with closed forms of each instance in quadruple precision.
 #include <gtest/gtest.h>
 
 #include <sstream>

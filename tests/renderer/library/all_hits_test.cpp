@@ -209,7 +209,7 @@ TEST(LibraryPairs, memories_of_meshes_only_change_the_work) {
     ASSERT_GE(warm.upper, cold.lower);
     ASSERT_NE(memory.words[3], 0u);
   }
-  // Of another pair, and of a shape: any contents will do.
+  // Accepts any contents: the memory of another pair, or of a shape.
   const mk::Distance other =
       mk::signed_distance(mk::sphere(1), mk::identity(), b, mk::translation({6, 0, 0}), memory);
   EXPECT_NEAR(other.value, 2, 1e-13);

@@ -66,7 +66,7 @@ TEST(FiringTimes, of_the_vlp_16_are_one_laser_after_another) {
 }
 
 TEST(FiringTimes, of_the_vlp_32c_are_pairs_of_lasers) {
-  // By the manual's table of lasers, from laser 0.
+  // Follows the manual's table of lasers, from laser 0.
   const double lasers[32] = {-25,    -1,    -1.667, -15.639, -11.31, 0,     -0.667, -8.843,
                              -7.254, 0.333, -0.333, -6.148,  -5.333, 1.333, 0.667,  -4,
                              -4.667, 1.667, 1,      -3.667,  -3.333, 3.333, 2.333,  -2.667,
