@@ -152,9 +152,12 @@ struct RayWithin {
 bool goes_together(const World& world, std::uint32_t body) {
   const Instances& instances = world.instances();
   if (instances.move() || !instances.has_shape(body)) return false;
+  const CastOptions &options = world.options(), defaults;
+  if (options.solver != defaults.solver || options.eps_tol != defaults.eps_tol ||
+      options.max_iterations != defaults.max_iterations || options.v0 != defaults.v0)
+    return false;
   const ShapeDefinition& definition = *instances.body_of(body).definition;
-  return definition.form().kind == FormKind::none && definition.has_packets() &&
-         world.options().solver == SolverKind::automatic;
+  return definition.form().kind == FormKind::none && definition.has_packets();
 }
 
 /// Finds the exits of up to a packet of rays from one body.

@@ -2,6 +2,7 @@
 #include "renderer/paths/path_transport.h"
 
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "renderer/paths/path_wave.h"
@@ -168,9 +169,10 @@ PathTransport::PathTransport(const Scene& scene, const World& world,
 
 void PathTransport::trace(std::span<TracedRay> rays, RayCounts& counts) const {
   counts.camera += rays.size();
-  thread_local WaveMemory kept;
-  WaveMemory memory = std::exchange(kept, {});
-  Wave(*this, rays, counts, memory).run();
+  thread_local std::unique_ptr<WaveMemory> kept;
+  std::unique_ptr<WaveMemory> memory = std::move(kept);
+  if (!memory) memory = std::make_unique<WaveMemory>();
+  Wave(*this, rays, counts, *memory).run();
   kept = std::move(memory);
 }
 
