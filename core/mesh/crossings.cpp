@@ -39,12 +39,10 @@ std::vector<PartHit> passed_parts(const TriangleMesh& mesh, const Ray<double>& r
   for (double error = 0;;) {
     hits.clear();
     PartCounts counts;
-    walk_triangles(mesh, further, counts, [&](std::uint32_t triangle, SlabRay&) {
-      const PartHit hit = cast_at_part(mesh, triangle, ray);
-      if (!hit.found() || !is_passed(mesh, ray, hit)) return false;
+    visit_hits(mesh, further, counts, [&](const PartHit& hit) {
+      if (!is_passed(mesh, ray, hit)) return;
       if (hit.t <= ray.t_max) error = std::max(error, hit.error);
       hits.push_back(hit);
-      return false;
     });
     if (ray.t_max + error <= further.t_max) break;
     further.t_max = ray.t_max + 2 * error;

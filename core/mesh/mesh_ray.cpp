@@ -161,11 +161,8 @@ bool meets_part(const TriangleMesh& mesh, const Ray<double>& ray, double t_min,
 std::vector<PartHit> all_parts(const TriangleMesh& mesh, const Ray<double>& ray) {
   std::vector<PartHit> hits;
   PartCounts counts;
-  walk_triangles(mesh, ray, counts, [&](std::uint32_t triangle, SlabRay&) {
-    const PartHit hit = cast_at_part(mesh, triangle, ray);
-    if (!hit.found() || !(hit.t <= ray.t_max)) return false;
-    hits.push_back(hit);
-    return false;
+  visit_hits(mesh, ray, counts, [&](const PartHit& hit) {
+    if (hit.t <= ray.t_max) hits.push_back(hit);
   });
   std::ranges::sort(hits, [](const PartHit& a, const PartHit& b) { return b.yields_to(a); });
   return hits;

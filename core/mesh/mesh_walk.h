@@ -71,6 +71,25 @@ PartHit closest_part_avx2(const MeshView& view, const Ray<double>& ray, double t
 bool meets_part_avx2(const MeshView& view, const Ray<double>& ray, double t_min,
                      PartCounts& counts);
 
+/// Calls take(context, hit) as visit_hits does.
+void visit_hits_avx2(const MeshView& view, const Ray<double>& ray, PartCounts& counts,
+                     void (*take)(void* context, const PartHit& hit), void* context);
+
+/// Calls take(hit) for all hits up to ray.t_max and for some beyond it, in any order.
+template <class Take>
+void visit_hits(const TriangleMesh& mesh, const Ray<double>& ray, PartCounts& counts, Take&& take) {
+  if (has_lanes(mesh) && suits_lanes(ray)) {
+    const auto plain = [](void* context, const PartHit& hit) {
+      (*static_cast<std::remove_reference_t<Take>*>(context))(hit);
+    };
+    return visit_hits_avx2(view_of(mesh), ray, counts, plain, &take);
+  }
+  walk_triangles(mesh, ray, counts, [&](std::uint32_t triangle, SlabRay&) {
+    if (const PartHit hit = cast_at_part(mesh, triangle, ray); hit.found()) take(hit);
+    return false;
+  });
+}
+
 /// Casts up to most_rays_of_walk suitable rays. The hits must be misses before the call.
 inline constexpr std::size_t most_rays_of_walk = 1024;
 void closest_parts_avx2(const MeshView& view, const PartRay* rays, std::size_t count, PartHit* hits,

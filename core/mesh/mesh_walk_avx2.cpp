@@ -125,6 +125,24 @@ bool meets_part_avx2(const MeshView& view, const Ray<double>& ray, double t_min,
   return is_met;
 }
 
+void visit_hits_avx2(const MeshView& view, const Ray<double>& ray, PartCounts& counts,
+                     void (*take)(void* context, const PartHit& hit), void* context) {
+  SlabRay slabs;
+  make_slabs_avx2(reinterpret_cast<const char*>(&ray), 0, 1, &slabs);
+  const double* const numbers = reinterpret_cast<const double*>(&ray);
+  LeafRay leaf_way = leaf_ray(numbers, numbers + 3, ray.t_max);
+  const CastRay cast = cast_ray_of(ray, leaf_way);
+  counts.nodes +=
+      walk_leaves(view, slabs, leaf_way, [&](const MeshLeaf& leaf, std::uint32_t lanes) {
+        for (; lanes != 0; lanes &= lanes - 1) {
+          ++counts.triangles;
+          const PartHit hit = cast_in_lanes(view, leaf.triangles[__builtin_ctz(lanes)], cast);
+          if (hit.found()) take(context, hit);
+        }
+        return false;
+      });
+}
+
 }  // namespace minkray
 #else
 namespace minkray {
@@ -136,6 +154,8 @@ PartHit closest_part_avx2(const MeshView&, const Ray<double>&, double, PartCount
 bool meets_part_avx2(const MeshView&, const Ray<double>&, double, PartCounts&) {
   return false;
 }
+void visit_hits_avx2(const MeshView&, const Ray<double>&, PartCounts&,
+                     void (*)(void*, const PartHit&), void*) {}
 
 }  // namespace minkray
 #endif

@@ -847,14 +847,14 @@ class Scene {
     detail::check(minkray_scene_occluded_rays(handle_, detail::plain(rays), rays.size(),
                                               answers.data(), &how));
   }
-  /// Finds where a ray leaves an object for the last time; see minkray_scene_exit.
+  /// Finds where a ray last leaves an object; see minkray_scene_exit.
   Hit exit(std::uint32_t object, const Ray& ray) const {
     Hit found;
     detail::check(minkray_scene_exit(handle_, object, detail::plain({&ray, 1}), 1,
                                      detail::plain({&found, 1}), nullptr));
     return found;
   }
-  /// Finds all points where rays enter or leave objects, sorted by t; see minkray/all_hits.h.
+  /// Finds all entries and exits of rays, sorted by t; see minkray/all_hits.h.
   AllHits all_hits(View<const Ray> rays, const Options& options = {}) const;
   AllHits all_hits(const Ray& ray) const;
   /// Proves results of `cast`.

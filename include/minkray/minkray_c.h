@@ -346,11 +346,11 @@ MINKRAY_API int minkray_scene_occluded_rays(minkray_scene scene, const minkray_r
                                             size_t count, uint8_t* blocked,
                                             const minkray_options* options);
 
-/* Finds where rays leave one object for the last time: MINKRAY_HIT at the greatest t with a point
- * of the object, MINKRAY_INSIDE if they end in it at t_max, MINKRAY_MISS if they miss it. A ray may
- * have left a mesh before, and entered it again. An open mesh has no inside: the result is the last
- * triangle that is hit. Normals point out of the object; normals of a mesh point along the ray. Not
- * for half-spaces, which are unbounded. */
+/* Finds where rays last leave one object: MINKRAY_HIT at the greatest t with a point of the object,
+ * MINKRAY_INSIDE if they end in it at t_max, MINKRAY_MISS if they miss it. A ray may have left a
+ * mesh before, and entered it again. An open mesh has no inside: the result is the last triangle
+ * that is hit. Normals point out of the object; normals of a mesh point along the ray. Not for
+ * half-spaces, which are unbounded. */
 MINKRAY_API int minkray_scene_exit(minkray_scene scene, uint32_t object, const minkray_ray* rays,
                                    size_t count, minkray_hit* hits, const minkray_options* options);
 
@@ -382,8 +382,8 @@ typedef struct minkray_all_hits {
  * nonzero to end the call with MINKRAY_STOPPED. */
 typedef int (*minkray_take_all_hits)(void* user, const minkray_all_hits* found);
 
-/* Finds all points with 0 <= t <= t_max where rays enter or leave objects. A ray's hits are sorted
- * by t, then by object. An object that a ray begins in is only left, one that it ends in only
+/* Finds all entries and exits of rays, with 0 <= t <= t_max. A ray's hits are sorted by t, then by
+ * object. An object that a ray begins in is only left, one that it ends in only
  * entered. A closed mesh without self-intersections is entered and left in turn, also where the ray
  * passes exactly through edges and vertices. A ray that only touches a mesh there enters and leaves
  * it at the same t, or does not hit it. */

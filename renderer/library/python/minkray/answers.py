@@ -105,8 +105,8 @@ class Hits(_Arrays):
 
 
 class AllHits:
-    """All points where rays enter or leave objects, as flat arrays: those of ray i are
-    ``offsets[i]`` to ``offsets[i + 1] - 1``, sorted by t.
+    """All hits of rays. The arrays are flat: the hits of ray i are ``offsets[i]`` to
+    ``offsets[i + 1] - 1``, sorted by t.
 
     Attributes
     ----------

@@ -105,7 +105,7 @@ class RaysOfScene:
 
     @_public
     def exit(self, object, rays, t_max=None, threads=0):
-        """Finds where rays leave one object for the last time.
+        """Finds where rays last leave one object.
 
         Parameters
         ----------
@@ -137,7 +137,7 @@ class RaysOfScene:
 
     @_public
     def all_hits(self, rays, t_max=None, threads=0):
-        """Finds all points where rays enter or leave objects.
+        """Finds all entries and exits of rays.
 
         Parameters
         ----------
