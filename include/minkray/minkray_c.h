@@ -356,7 +356,7 @@ MINKRAY_API int minkray_scene_exit(minkray_scene scene, uint32_t object, const m
 
 /* A point where a ray enters or leaves an object. */
 typedef struct minkray_crossing {
-  double t;
+  double t;    /* the ray's parameter */
   double t_lo; /* proven bounds of t */
   double t_hi;
   double point[3];

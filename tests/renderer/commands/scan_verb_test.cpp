@@ -54,7 +54,7 @@ struct ScanRow {
 /// The records of a .npy file as they are laid out: 8 + 8 + 24 + 24 + 4 + 8 + 8 + 1 + 8 + 8 bytes.
 std::vector<ScanRow> scan_rows(const std::string& bytes) {
   std::vector<ScanRow> rows;
-  for (std::size_t at = bytes.find('\n') + 1; at + 101 <= bytes.size(); at += 101) {
+  for (std::size_t at = bytes.find('\n') + 1; at + 109 <= bytes.size(); at += 109) {
     ScanRow row;
     std::memcpy(&row.t, bytes.data() + at, 8);
     std::memcpy(&row.distance, bytes.data() + at + 8, 8);

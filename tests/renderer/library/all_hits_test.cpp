@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // All hits of rays and exits at meshes, through the public headers.
 #include <gtest/gtest.h>
+
 #include <minkray/minkray.h>
+#include <algorithm>
 
 #include <array>
 #include <cmath>
@@ -207,7 +209,7 @@ TEST(LibraryPairs, memories_of_meshes_only_change_the_work) {
     ASSERT_NEAR(warm.value, cold.value, 1e-13);
     ASSERT_LE(warm.lower, cold.upper);
     ASSERT_GE(warm.upper, cold.lower);
-    ASSERT_NE(memory.words[3], 0u);
+    ASSERT_TRUE(std::ranges::any_of(memory.words, [](std::uint64_t word) { return word != 0; }));
   }
   // Accepts any contents: the memory of another pair, or of a shape.
   const mk::Distance other =
