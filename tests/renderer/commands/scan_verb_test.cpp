@@ -49,9 +49,11 @@ struct ScanRow {
   std::array<double, 3> point = {}, normal = {};
   int object = 0;
   int status = 0;
+  double time = 0;
 };
 
-/// The records of a .npy file as they are laid out: 8 + 8 + 24 + 24 + 4 + 8 + 8 + 1 + 8 + 8 bytes.
+/// The records of a .npy file as they are laid out: 8 + 8 + 24 + 24 + 4 + 8 + 8 + 1 + 8 + 8 + 8
+/// bytes.
 std::vector<ScanRow> scan_rows(const std::string& bytes) {
   std::vector<ScanRow> rows;
   for (std::size_t at = bytes.find('\n') + 1; at + 109 <= bytes.size(); at += 109) {
@@ -62,6 +64,7 @@ std::vector<ScanRow> scan_rows(const std::string& bytes) {
     std::memcpy(row.normal.data(), bytes.data() + at + 40, 24);
     std::memcpy(&row.object, bytes.data() + at + 64, 4);
     row.status = bytes[at + 84];
+    std::memcpy(&row.time, bytes.data() + at + 101, 8);
     rows.push_back(row);
   }
   return rows;
@@ -105,7 +108,7 @@ TEST_F(ScanVerb, every_output_holds_the_same_numbers) {
     std::vector<double> values;
     for (std::string cell; std::getline(cells, cell, ',');)
       values.push_back(std::strtod(cell.c_str(), nullptr));
-    ASSERT_EQ(values.size(), 16u);
+    ASSERT_EQ(values.size(), 17u);
     EXPECT_EQ(values[2], row.t);
     EXPECT_EQ(values[3], row.distance);
     if (row.object >= 0) {
@@ -114,6 +117,7 @@ TEST_F(ScanVerb, every_output_holds_the_same_numbers) {
     }
     EXPECT_EQ(values[10], row.object);
     EXPECT_EQ(values[13], row.status);
+    EXPECT_EQ(values[16], row.time);
   }
 
   // PCD and PLY: the points that were met, as floats.
