@@ -25,18 +25,6 @@ struct Crossing {
 static_assert(sizeof(Crossing) == sizeof(minkray_crossing) &&
               offsetof(Crossing, leaves) == offsetof(minkray_crossing, leaves));
 
-namespace detail {
-/// An array that is released at the end.
-template <class Item>
-struct Room {
-  explicit Room(std::size_t size) : items(new Item[size]) {}
-  Room(const Room&) = delete;
-  Room& operator=(const Room&) = delete;
-  ~Room() { delete[] items; }
-  Item* items;
-};
-}  // namespace detail
-
 /// Owning list of the hits of many rays.
 class AllHits {
  public:

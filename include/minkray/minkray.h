@@ -598,6 +598,15 @@ inline const minkray_ray* plain(View<const Ray> rays) {
 inline minkray_hit* plain(View<Hit> hits) {
   return reinterpret_cast<minkray_hit*>(hits.data());
 }
+/// An array that is released at the end.
+template <class Item>
+struct Room {
+  explicit Room(std::size_t size) : items(new Item[size]) {}
+  Room(const Room&) = delete;
+  Room& operator=(const Room&) = delete;
+  ~Room() { delete[] items; }
+  Item* items;
+};
 /// Throws unless both counts are equal.
 inline void check_sizes(const char* function, const char* argument, std::size_t size,
                         const char* other, std::size_t must_be) {
@@ -1049,4 +1058,3 @@ inline Impact time_of_impact(const Shape& a, const Pose& pose_a, const Twist& tw
 
 #include "minkray/all_hits.h"
 #include "minkray/pairs.h"
-#include "minkray/ray_derivatives.h"

@@ -411,3 +411,5 @@ inline void Scene::clearance_derivatives(const Group& robot, View<const double> 
 
 }  // namespace v0
 }  // namespace minkray
+
+#include "minkray/ray_derivatives.h"

@@ -5,7 +5,6 @@
 
 // Example:
 //   mk::ray_derivatives(scene, rays, hits, {by_ray, by_body, is_ridge});
-#include "minkray/all_hits.h"
 #include "minkray/minkray.h"
 #include "minkray/minkray_c_pairs.h"
 
