@@ -169,11 +169,20 @@ PathTransport::PathTransport(const Scene& scene, const World& world,
 
 void PathTransport::trace(std::span<TracedRay> rays, RayCounts& counts) const {
   counts.camera += rays.size();
-  thread_local std::unique_ptr<WaveMemory> kept;
-  std::unique_ptr<WaveMemory> memory = std::move(kept);
+  std::unique_ptr<WaveMemory> memory;
+  {
+    const std::lock_guard lock(spare_lock_);
+    if (!spare_.empty()) {
+      memory = std::move(spare_.back());
+      spare_.pop_back();
+    }
+  }
   if (!memory) memory = std::make_unique<WaveMemory>();
   Wave(*this, rays, counts, *memory).run();
-  kept = std::move(memory);
+  const std::lock_guard lock(spare_lock_);
+  spare_.push_back(std::move(memory));
 }
+
+PathTransport::~PathTransport() = default;
 
 }  // namespace minkray

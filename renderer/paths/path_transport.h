@@ -4,6 +4,8 @@
 // 1995). Russian roulette ends paths of little weight without bias.
 #pragma once
 
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "renderer/lights/emitters.h"
@@ -19,6 +21,7 @@ namespace minkray {
 class PathTransport final : public LightTransport {
  public:
   PathTransport(const Scene& scene, const World& world, const IntegratorOptions& options);
+  ~PathTransport() override;
 
   void trace(std::span<TracedRay> rays, RayCounts& counts) const override;
 
@@ -44,6 +47,9 @@ class PathTransport final : public LightTransport {
   EnvironmentSource background_;
   bool background_is_sky_;
   std::vector<bool> is_flat_sheet_;  ///< by instance, if there are sheets
+  /// Memory of waves that have ended, for the next ones.
+  mutable std::vector<std::unique_ptr<WaveMemory>> spare_;
+  mutable std::mutex spare_lock_;
 };
 
 }  // namespace minkray

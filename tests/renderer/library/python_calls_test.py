@@ -8,6 +8,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 
 import numpy as np
@@ -329,7 +330,11 @@ class Threads(unittest.TestCase):
         for asker in askers:
             asker.start()
         added, refused = 0, 0
-        while added + refused < 300:
+        # On a busy machine the askers may begin late.
+        deadline = time.monotonic() + 30
+        while added + refused < 300 or (refused == 0 and time.monotonic() < deadline):
+            if added + refused >= 300:
+                time.sleep(0.001)
             try:
                 scene.add(mk.sphere(0.5), at(50), name="x" * 50)
                 added += 1
