@@ -13,12 +13,14 @@ from pathlib import Path
 
 import bmesh
 import bpy
+import numpy
 from mathutils import Vector
 
 scene_file, out, samples, seed, width, height = sys.argv[sys.argv.index("--") + 1:]
 described = json.loads(Path(scene_file).read_text())
 bpy.ops.wm.read_factory_settings(use_empty=True)
 scene = bpy.context.scene
+SKY_STRENGTH, SUN_STRENGTH = 1.3, 5.0
 METALS = {"copper": (0.955, 0.638, 0.538), "gold": (1.0, 0.766, 0.336), "chromium": (0.55, 0.556, 0.554)}
 
 
@@ -76,21 +78,69 @@ def material(about):
     return made
 
 
-materials = {about["name"]: material(about) for about in described["materials"]}
-for number, thing in enumerate(described["objects"]):
+def object_of(name, mesh, material):
+    if material:
+        mesh.materials.append(material)
+    made = bpy.data.objects.new(name, mesh)
+    scene.collection.objects.link(made)
+    return made
+
+
+def hull_of(name, points):
     hull = bmesh.new()
-    for point in thing["points"]:
+    for point in points:
         hull.verts.new(point)
     bmesh.ops.convex_hull(hull, input=hull.verts)
     bmesh.ops.delete(hull, geom=[v for v in hull.verts if not v.link_faces], context="VERTS")
-    mesh = bpy.data.meshes.new(str(number))
+    mesh = bpy.data.meshes.new(name)
     hull.to_mesh(mesh)
     hull.free()
     for polygon in mesh.polygons:
         polygon.use_smooth = True
     mesh.use_auto_smooth, mesh.auto_smooth_angle = True, math.radians(25)
-    mesh.materials.append(materials[thing["material"]])
-    scene.collection.objects.link(bpy.data.objects.new(str(number), mesh))
+    return mesh
+
+
+def quads(name, corners):
+    """A mesh of squares: (N, 4, 3) corners."""
+    mesh, count = bpy.data.meshes.new(name), len(corners)
+    mesh.vertices.add(4 * count)
+    mesh.vertices.foreach_set("co", corners.ravel())
+    mesh.loops.add(4 * count)
+    mesh.loops.foreach_set("vertex_index", numpy.arange(4 * count, dtype=numpy.int32))
+    mesh.polygons.add(count)
+    mesh.polygons.foreach_set("loop_start", numpy.arange(0, 4 * count, 4, dtype=numpy.int32))
+    mesh.polygons.foreach_set("loop_total", numpy.full(count, 4, dtype=numpy.int32))
+    mesh.update()
+    return mesh
+
+
+def add_grains(name, about):
+    """One instance on each square of a mesh that is not shown: its place, rotation and size."""
+    rows = numpy.fromfile(about["file"], dtype=numpy.float32).reshape(-1, 9)
+    x, y, z, w = rows[:, 3:7].T
+    right = numpy.stack([1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)], 1)
+    ahead = numpy.stack([2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)], 1)
+    half = rows[:, 7:8] / 2
+    corners = numpy.stack([rows[:, :3] + half * (a * right + b * ahead)
+                           for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))], 1)
+    for number, kind in enumerate(about["materials"]):
+        mine = f"{name} {number}"
+        places = object_of(mine + " places", quads(mine + " places", corners[rows[:, 8] == number]), None)
+        places.instance_type, places.use_instance_faces_scale = "FACES", True
+        places.show_instancer_for_render = False
+        object_of(mine, hull_of(mine, about["points"]), materials[kind]).parent = places
+
+
+materials = {about["name"]: material(about) for about in described["materials"]}
+for number, thing in enumerate(described["objects"]):
+    if "points" in thing:
+        mesh = hull_of(str(number), thing["points"])
+    else:
+        mesh = quads(str(number), numpy.array([[[-50, -50, 0], [50, -50, 0], [50, 50, 0], [-50, 50, 0]]], numpy.float32))
+    object_of(str(number), mesh, materials[thing["material"]])
+for number, about in enumerate(described.get("particles", [])):
+    add_grains(f"grains {number}", about)
 
 scene.world = bpy.data.worlds.new("world")
 scene.world.use_nodes = True
@@ -109,10 +159,13 @@ def gradient(zenith, nadir):
     return mixed.outputs[0]
 
 
-environment = None
+environment = above = None
 for light in described["lights"]:
     if light["type"] == "environment":
         environment = light
+        continue
+    if light["type"] == "sun_sky":
+        above = light
         continue
     lamp = bpy.data.lights.new("sun", "SUN")
     lamp.energy, lamp.angle, lamp.color = light.get("intensity", 1), 0, light["color"]
@@ -123,7 +176,17 @@ for light in described["lights"]:
 behind = described.get("background", [0, 0, 0])
 behind = (behind["zenith"], behind["nadir"]) if isinstance(behind, dict) else (behind, behind)
 shown = sky.nodes["Background"].inputs[0]
-if environment:  # cameras see the background instead
+if above:  # strengths fitted to Minkray's picture
+    air, towards = sky.nodes.new("ShaderNodeTexSky"), Vector(above["sun"]).normalized()
+    air.sky_type, air.turbidity, air.sun_direction = "HOSEK_WILKIE", above["turbidity"], towards
+    sky.links.new(air.outputs[0], shown)
+    sky.nodes["Background"].inputs[1].default_value = SKY_STRENGTH
+    lamp = bpy.data.lights.new("sun", "SUN")
+    lamp.energy, lamp.angle, lamp.color = SUN_STRENGTH, math.radians(0.53), (1, 0.85, 0.65)
+    sun = bpy.data.objects.new("sun", lamp)
+    sun.rotation_mode, sun.rotation_quaternion = "QUATERNION", (-towards).to_track_quat("-Z", "Y")
+    scene.collection.objects.link(sun)
+elif environment:  # cameras see the background instead
     path, either = sky.nodes.new("ShaderNodeLightPath"), sky.nodes.new("ShaderNodeMixRGB")
     sky.links.new(path.outputs["Is Camera Ray"], either.inputs[0])
     sky.links.new(gradient(environment["zenith"], environment["nadir"]), either.inputs[1])
@@ -140,6 +203,12 @@ camera.location, camera.rotation_mode = about["position"], "QUATERNION"
 camera.rotation_quaternion = (Vector(about["look_at"]) - Vector(about["position"])).to_track_quat("-Z", "Y")
 scene.collection.objects.link(camera)
 scene.camera = camera
+if about.get("aperture"):
+    focus = next(thing for thing in described["objects"] if thing["name"] == about["focus_on"])["transform"]["translate"]
+    along = (Vector(about["look_at"]) - Vector(about["position"])).normalized()
+    eye.dof.use_dof = True
+    eye.dof.focus_distance = along.dot(Vector(focus) - Vector(about["position"]))
+    eye.dof.aperture_fstop = eye.lens / 1000 / about["aperture"]
 
 scene.render.engine = "CYCLES"
 scene.render.resolution_x, scene.render.resolution_y = int(width), int(height)
