@@ -19,8 +19,8 @@ struct CastOptions {
   /// paper).
   double eps_tol = tolerance::gjk_squared<double>;
   int max_iterations = tolerance::gjk_max_iterations;
-  /// Initial normal in the ray's frame, for solvers that use one: for example the normal of the
-  /// plane that separated the same ray and shape in the previous frame. Zero: none.
+  /// Initial normal, in the ray's coordinates; some solvers use it. For example the normal of the
+  /// plane that separated this ray and shape in the previous picture of an animation. Zero: none.
   Vec3<double> v0 = Vec3<double>::Zero();
 };
 
@@ -33,8 +33,8 @@ using CastObserver = std::function<void(const CastIteration<double>&)>;
 CastResult<double> cast_ray(const PreparedShape& shape, const Ray<double>& ray,
                             const CastOptions& options = {}, const CastObserver& observer = {});
 
-/// Casts at a shape whose pose is used for this ray only. Faster than preparing the shape first,
-/// since closed forms do not need that.
+/// Casts at a shape whose pose is used for this ray only. Faster than making a PreparedShape first,
+/// since a closed form does not need one.
 CastResult<double> cast_ray(const ShapeDefinition& definition, const Affine<double>& pose,
                             const Ray<double>& ray);
 

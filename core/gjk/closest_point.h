@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The point of a simplex closest to the origin, and the vertices that carry it: the result of
-// Johnson's distance subalgorithm, but computed by projections. Unlike determinants, they stay
+// The point of a simplex closest to the origin, and the vertices that it lies between: the result
+// of Johnson's distance subalgorithm, but computed by projections. Unlike determinants, they stay
 // accurate for the small and sliver-like simplices near the end of a cast.
 #pragma once
 
@@ -23,7 +23,7 @@ template <class T>
 struct ClosestPoint {
   Vec3<T> v = Vec3<T>::Zero();    ///< the simplex' point closest to the origin
   std::array<T, 4> weights = {};  ///< barycentric: v = sum of weights[i] * y[i]
-  unsigned kept = 0;              ///< bit i: vertex i is needed to carry v
+  unsigned kept = 0;              ///< bit i: v needs vertex i
 };
 
 namespace detail {
@@ -184,7 +184,8 @@ ClosestPoint<T> closest_on_tetrahedron(const SimplexPoints<T>& simplex) {
 
 }  // namespace detail
 
-/// The point of conv(y) closest to the origin and the smallest set of vertices that carries it.
+/// The point of conv(y) closest to the origin and the smallest set of vertices whose convex hull
+/// contains it.
 template <class T>
 ClosestPoint<T> closest_point(const SimplexPoints<T>& simplex) {
   switch (simplex.size) {

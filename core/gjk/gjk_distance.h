@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The GJK distance algorithm: Algorithm 2 of van den Bergen (2004), section 3, in 2D and 3D, in the
 // paper's letters: v is the simplex' point closest to the origin, w the support point s(-v), Y the
-// simplex with w, W the smallest part of Y that carries v. The obstacle is C = {x} - (A - B): x is
-// the offset of the two objects' centres or, if B is a point, the query point.
+// simplex with w, W the smallest subset of Y whose convex hull contains v. The obstacle is C = {x}
+// - (A - B): x is the offset of the two objects' centres or, if B is a point, the query point.
 #pragma once
 
 #include <array>
@@ -55,8 +55,8 @@ DistanceResult<T, Dim> gjk_distance(const Supports& supports, const Vec<T, Dim>&
 
   const auto finish = [&](DistanceStatus status) {
     result.status = status;
-    // Weights are divided by their sum. On a short edge they have few correct digits, which may
-    // move a point along the edge but must not move it off.
+    // Divides the weights by their sum, so that the point stays on the simplex. On a short edge
+    // the weights have large rounding errors, which move the point along the edge only.
     T sum = T(0);
     for (const T weight : closest.weights) sum += weight;
     for (std::size_t i = 0; i < pairs.size(); ++i) {

@@ -144,7 +144,7 @@ requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const Ra
     const int slot = repeated ? -1 : Y.add(p);
     const T furthest = Y.furthest_squared();
 
-    // The closest point of the simplex, and the vertices that carry it.
+    // The closest point of the simplex, and the vertices that it lies between.
     const SubalgorithmAnswer<T, 3> closest = Y.closest();
     Y.keep(closest.kept);
     v = closest.v;

@@ -10,11 +10,10 @@ namespace minkray {
 
 /// For X a subset of the vertices Y, v(aff X) = sum of D_i(X)/D(X) y_i, with
 ///   D_i({i}) = 1,  D_j(X + {j}) = sum over i in X of D_i(X) (y_k - y_j).y_i  for any k in X,
-/// and D(X) their sum. The smallest X that carries v has D_i(X) > 0 for all i in X and
-/// D_j(X + {j}) <= 0 for all others. If rounding has changed signs of determinants, there may be
-/// no such X.
-/// The backup procedure of Gilbert, Johnson and Keerthi (1988) then takes the closest v of all X
-/// with D_i(X) > 0.
+/// and D(X) their sum. The smallest X whose convex hull contains v has D_i(X) > 0 for all i in X
+/// and D_j(X + {j}) <= 0 for all others. If rounding has changed signs of determinants, there may
+/// be no such X. The backup procedure of Gilbert, Johnson and Keerthi (1988) then takes the closest
+/// v of all X with D_i(X) > 0.
 template <class T, int Dim>
 class JohnsonSubalgorithm : public SimplexVertices<T, Dim> {
   using Base = SimplexVertices<T, Dim>;

@@ -19,7 +19,7 @@ template <class T, int Dim>
 struct SubalgorithmAnswer {
   Vec<T, Dim> v = Vec<T, Dim>::Zero();  ///< the simplex' point closest to the origin
   std::array<T, Dim + 1> weights = {};  ///< by slot: v = sum of weights[i] * y[i]
-  unsigned kept = 0;                    ///< bit i: the vertex in slot i is needed to carry v
+  unsigned kept = 0;                    ///< bit i: v needs the vertex in slot i
   bool proper = true;                   ///< false: found by the backup procedure, due to rounding
 };
 
@@ -54,7 +54,7 @@ class SimplexVertices {
     return furthest;
   }
 
-  /// Removes the vertices whose bits are not set; they do not carry v.
+  /// Removes the vertices whose bits are not set; v does not need them.
   void keep(unsigned kept) { used_ &= kept; }
 
  protected:

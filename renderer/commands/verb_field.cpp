@@ -119,7 +119,8 @@ void add_field(Parser& parser, ExitCode&) {
                   "Width of the picture in scene units; default: shows all objects")
       .between(0.0, 1e300);
   verb.add_option("--probe", options->probe,
-                  "JSON file of a shape to move over the plane instead of a point")
+                  "JSON file of a shape: draw its signed distance, with\nits origin at each point "
+                  "of the plane")
       .reads_file();
   verb.add_option("-r,--resolution", options->resolution, "Picture size in pixels")
       .takes("WxH")
