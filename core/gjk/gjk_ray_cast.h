@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // GJK ray cast: Algorithm 3 of G. van den Bergen, "Ray Casting against General Convex Objects with
 // Application to Continuous Collision Detection" (2004), section 4. Letters: x = s + lambda r is
-// the ray; p a support point, w = x - p; P the simplex' support points, Y = x - P; v the simplex'
-// point closest to the origin and the next direction; n the last v that moved lambda. Points are
-// relative to the bounding ball's centre, lambda to the ray's closest approach.
+// the ray; p a support point, w = x - p; P the simplex' support points, Y = x - P; v the point
+// of Y closest to the origin, which is also the next direction; n the last v that moved lambda.
+// Points are relative to the bounding ball's centre, lambda to the ray's closest approach.
 #pragma once
 
 #include <array>
@@ -49,9 +49,10 @@ void observe(Observer& observer, const G& Y, CastIteration<T> iteration) {
 
 }  // namespace detail
 
-/// Returns the least parameter at which the ray is in the shape: that of its beginning if the ray
-/// begins inside. `ball` must contain the shape, and the ray must be relative to the ball's centre.
-/// `Y` is the distance subalgorithm (subalgorithm.h), which also keeps the simplex.
+/// Returns the least parameter at which the ray is in the shape; if the ray begins inside, the
+/// parameter of the ray's origin. `ball` must contain the shape, and the ray must be relative to
+/// the ball's centre. `Y` is the distance subalgorithm (subalgorithm.h), which also keeps the
+/// simplex.
 template <class T, class S, class Observer = NoObserver, class G = ProjectionSubalgorithm<T, 3>>
 requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const RayNearBall<T>& near,
                                                         const Ball<T>& ball,

@@ -82,8 +82,8 @@ struct CutCylinder {
   }
 
  private:
-  /// Finds the point furthest along n of each plane's ellipse. Stores the two points projected to
-  /// the unit disk; `is_upper` is set if the upper ellipse reaches further.
+  /// Finds, for the ellipse in each plane, the point furthest along n. Stores the two points
+  /// projected to the unit disk; `is_upper` is set if the upper ellipse reaches further.
   template <class W>
   struct Rims {
     Vec3<W> lower, upper;

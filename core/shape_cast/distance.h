@@ -12,9 +12,10 @@ namespace minkray {
 
 using DistanceObserver = std::function<void(const DistanceIteration<double, 3>&)>;
 
-/// Points and axis are in the world. The distance is exact to a few epsilon of itself and of the
-/// sizes, of curved shapes in double to 1e-9 at worst; `lower` bounds it. Touching counts as
-/// overlapping, unless it is exhausted. The observer sees every iteration but those of a retry.
+/// Points and axis are in the world. The error of the distance is a few epsilon of the distance
+/// plus the shapes' sizes; for curved shapes at most 1e-9 of them. `lower` is a lower bound of the
+/// distance. For touching shapes the status is overlapping, or exhausted if the solver does not
+/// converge. A result that is too coarse is computed again in long double, unobserved.
 DistanceResult<double, 3> distance_between(
     const CentredShape& a, const CentredShape& b, const DistanceOptions<double, 3>& options = {},
     SubalgorithmKind subalgorithm = SubalgorithmKind::projection,

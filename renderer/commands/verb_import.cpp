@@ -51,7 +51,7 @@ void add_import(Parser& parser, ExitCode&) {
       .writes_file();
   add_import_options(verb, options->import);
   verb.add_option("-r,--resolution", options->resolution,
-                  "Picture size for placing the camera (default 960x720)")
+                  "Picture size for which the camera is placed (default 960x720)")
       .takes("WxH");
   verb.add_flag("-q,--quiet", options->quiet, "Print no report");
   verb.on_call([options] { import(*options); });
