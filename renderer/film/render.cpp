@@ -2,7 +2,6 @@
 #include "renderer/film/render.h"
 
 #include <atomic>
-#include <utility>
 #include <vector>
 
 #include "renderer/film/camera_rays.h"
@@ -148,12 +147,13 @@ class Rendered {
     std::size_t place = 0;
     if (!kept_.empty() && pass.first > 0)
       pixels.for_each([&](const Pixel& pixel) { sums[place++] = kept_[pixel.index]; });
+    std::vector<TracedRay> rays;  // kept: new pages for each group cost more than its rays
     int next = 0;
     for (int first = pass.first; first < pass.end && !watch_.stopped(); first = next) {
       next = std::min(first + samples_at_once, pass.end);
       if (options_.noise > 0)
         next = std::min(next, (first / samples_between_looks + 1) * samples_between_looks);
-      if (!trace(pixels, {first, next}, sums.data(), counts)) break;
+      if (!trace(pixels, {first, next}, sums.data(), rays, counts)) break;
     }
     const PixelSum* sum = sums.data();
     pixels.for_each([&](const Pixel& pixel) {
@@ -162,10 +162,9 @@ class Rendered {
     });
   }
 
-  /// Adds a pass of samples to each unfinished pixel. False if all are finished.
-  bool trace(const PixelBlock& pixels, const Pass& part, PixelSum* sums, RayCounts& counts) {
-    thread_local std::vector<TracedRay> kept;  // new pages for each group cost more than its rays
-    std::vector<TracedRay> rays = std::exchange(kept, {});
+  /// Adds a pass of samples to each unfinished pixel; `rays` is memory. False if all are finished.
+  bool trace(const PixelBlock& pixels, const Pass& part, PixelSum* sums,
+             std::vector<TracedRay>& rays, RayCounts& counts) {
     rays.clear();
     rays.reserve(pixels.count() * static_cast<std::size_t>(part.end - part.first));
     const PixelSum* asked = sums;
@@ -184,7 +183,6 @@ class Rendered {
           add(pixel, *sum, sample, *ray++, sample + 1 == part.end);
       ++sum;
     });
-    kept = std::move(rays);
     return true;
   }
 
