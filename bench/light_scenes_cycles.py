@@ -63,7 +63,7 @@ def material(about):
         brightest = max(about["radiance"])
         surface = node("ShaderNodeEmission", [x / brightest for x in about["radiance"]], Strength=brightest)
     elif kind == "dielectric":
-        # A tint at each surface in place of absorption within.
+        # Tints each surface, since Cycles has no absorption inside glass.
         tint = [math.exp(-0.15 * x) for x in about.get("absorption", (0, 0, 0))]
         surface = node("ShaderNodeBsdfGlass", tint, IOR=about.get("index_of_refraction", 1.5),
                        Roughness=about.get("roughness", 0))

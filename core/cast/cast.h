@@ -44,4 +44,8 @@ CastResult<double> cast_ray(const ShapeDefinition& definition, const Affine<doub
 CastResult<double> cast_exit(const PreparedShape& shape, const Ray<double>& ray,
                              const CastOptions& options = {});
 
+/// Same as cast_exit, but also bounds t from below. `offset_lo` is -infinity if no bound is known.
+CastResult<double> cast_exit_within(const PreparedShape& shape, const Ray<double>& ray,
+                                    const CastOptions& options = {});
+
 }  // namespace minkray

@@ -30,8 +30,8 @@ void filter_part(const PreparedShape& shape, const RayPacket& rays, LaneBits lan
 
 }  // namespace
 
-void MINKRAY_FILTER_KERNEL(const PreparedShape& shape, const RayPacket& rays,
-                           LaneBits lanes, CastPacket& answers) {
+void MINKRAY_FILTER_KERNEL(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
+                           CastPacket& answers) {
   constexpr LaneBits every = (LaneBits(1) << LaneOf<Lanes>::count) - 1;
   for (int at = 0; at < packet_lanes; at += LaneOf<Lanes>::count) {
     const auto from = static_cast<std::size_t>(at);

@@ -15,10 +15,6 @@ CastResult<double> cast_by_later_stages(const PreparedShape& shape, const Ray<do
 CastResult<double> exit_by_later_stages(const PreparedShape& shape, const Ray<double>& ray,
                                         const CastOptions& options);
 
-/// Same as cast_exit, with a lower bound of t as well; -infinity if there is none.
-CastResult<double> cast_exit_within(const PreparedShape& shape, const Ray<double>& ray,
-                                    const CastOptions& options = {});
-
 /// Adds the upper bound of t to a hit that a packet found, as cast_by_later_stages does.
 void bound_hit(const PreparedShape& shape, const Ray<double>& ray, CastResult<double>& result);
 

@@ -37,8 +37,8 @@ void part(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes, boo
   if (!any(bounds.open)) return all_miss(bounds);
   RayNearBall<W> near = shape.template to_inner<W>(ray);
   // Left to the single casts.
-  bounds.open &=
-      (!near.is_from_afar(ball.radius)) & (near.loss <= W(tolerance::small_loss<double> * ball.radius));
+  bounds.open &= (!near.is_from_afar(ball.radius)) &
+                 (near.loss <= W(tolerance::small_loss<double> * ball.radius));
   // The exit of a ray is the entry of the reversed ray.
   if (leaves) near = near.reversed();
   cast_at_ball(near, ball.radius, bounds);
@@ -92,8 +92,8 @@ void kernel(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes, b
 
 }  // namespace
 
-void MINKRAY_PACKET_KERNEL(const PreparedShape& shape, const RayPacket& rays,
-                           LaneBits lanes, bool leaves, CastPacket& answers) {
+void MINKRAY_PACKET_KERNEL(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
+                           bool leaves, CastPacket& answers) {
   kernel(shape, rays, lanes, leaves, answers);
 }
 

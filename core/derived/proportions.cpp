@@ -169,7 +169,7 @@ void look_at(const Shape& shape, const Stretch& stretch, Seen& seen) {
     seen.extreme_operand |= ratio_of_points(points) * stretch.ratio() > most_askew;
     const Bounds<double> bounds = bounds_of(kind);
     seen.lost_digits |= loses_digits(bounds);
-    seen.add(double(bounds.half_extents().maxCoeff()), stretch);
+    seen.add(bounds.half_extents().maxCoeff(), stretch);
   };
   std::visit(
       [&]<class S>(const S& kind) {
@@ -181,7 +181,7 @@ void look_at(const Shape& shape, const Stretch& stretch, Seen& seen) {
           look_at_points(kind, kind.points);
         } else if constexpr (std::is_same_v<S, Rounded>) {
           // A shape rounded by that radius is at least that thick, however thin its core.
-          const double radius = double(kind.radius);
+          const double radius = kind.radius;
           const double size = bounds_of(*kind.shape).half_extents().maxCoeff();
           if (radius * most_askew > size) {
             Seen core;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/bvh/traverse.h"
-#include "core/cast/later_stages.h"
+#include "core/cast/cast.h"
 #include "core/math/outward_sum.h"
 #include "core/world/world.h"
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "core/cast/later_stages.h"
+#include "core/cast/cast.h"
 #include "renderer/library/handles/call.h"
 #include "renderer/library/handles/held_scene.h"
 #include "renderer/library/handles/held_shape.h"

@@ -2,7 +2,7 @@
 // The bounds of exits: the shape reaches t_lo, and nothing of it lies behind t_hi.
 #include <gtest/gtest.h>
 
-#include "core/cast/later_stages.h"
+#include "core/cast/cast.h"
 #include "core/derived/shape_bounds.h"
 #include "tests/support/aimed_rays.h"
 #include "tests/support/number_of_cases.h"

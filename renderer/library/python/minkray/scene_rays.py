@@ -118,9 +118,9 @@ class RaysOfScene:
         -------
         Hits
             HIT at the greatest t with a point of the object, INSIDE where a ray ends in it at t_max, or
-            MISS. A ray may have left a mesh before, and entered it again. Of an open mesh, which has no
-            inside, the last triangle that is hit. Normals point out of the object, of a mesh along the
-            ray.
+            MISS. A ray may have left a mesh before, and entered it again. An open mesh has no inside:
+            the result is the last triangle that is hit. Normals point out of the object; normals of a
+            mesh point along the ray.
 
         Examples
         --------
