@@ -25,12 +25,11 @@ CertifiedCasts& CertifiedCasts::operator+=(const CertifiedCasts& other) {
 CertifiedCasts certified_casts(const Shape& shape, RayFamily family, int rays, std::uint64_t seed,
                                SolverKind solver) {
   const Shape cast_at = shape;
-  const Shape same = cast_at;
   const PreparedShape prepared(cast_at);
-  const SupportFunction support = supports_of(same);
+  const SupportFunction support = supports_of(cast_at);
   CastOptions options;
   options.solver = solver;
-  FamilyRays source(same, family, seed);
+  FamilyRays source(cast_at, family, seed);
   CertifiedCasts all;
   for (int i = 0; i < rays; ++i) {
     const Ray<double> ray = source.next();

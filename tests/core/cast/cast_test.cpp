@@ -227,9 +227,9 @@ TEST(Cast, edges_of_the_thinnest_plates_are_not_met_beyond_their_ends) {
                                                                 {-1, 2, 0},
                                                                 {1, -2, -e},
                                                                 {-1, -2, 0}})};
-  const PreparedShape in_float(plate);
+  const PreparedShape prepared(plate);
   const CastResult<double> exit = cast_exit(
-      in_float, Ray<double>{{1, -4, 7.717676324403566e-15}, {0, 2, -3.858838162201783e-15}});
+      prepared, Ray<double>{{1, -4, 7.717676324403566e-15}, {0, 2, -3.858838162201783e-15}});
   if (exit.status == Status::hit) {
     EXPECT_NEAR(exit.t(), 2, 1e-5);
   } else {

@@ -86,7 +86,6 @@ TEST(CastTruths, planes_of_hits_touch_and_planes_of_misses_separate) {
              CastOptions options;
              options.solver = solver;
              const CastResult<double> result = cast_ray(prepared, ray, options);
-             const Shape same = shape;
              const Ray<double> exact{ray.origin.cast<double>(), ray.direction.cast<double>()};
              const Vec3<double> n = result.normal.cast<double>();
              const double radius = radius_of(prepared);
@@ -94,13 +93,13 @@ TEST(CastTruths, planes_of_hits_touch_and_planes_of_misses_separate) {
              EXPECT_NE(result.status, Status::inside) << name;
              if (result.status == Status::hit) {
                const double t = double(result.t_base) + double(result.t_offset);
-               EXPECT_NEAR(n.dot(exact.at(t)), n.dot(same.support(n)),
+               EXPECT_NEAR(n.dot(exact.at(t)), n.dot(shape.support(n)),
                            allowed_epsilons * epsilon * radius)
                    << name;
                EXPECT_LE(n.dot(exact.direction), 8 * epsilon * exact.direction.norm()) << name;
              }
              if (result.status == Status::miss) {
-               const double above = n.dot(exact.origin - same.support(n));
+               const double above = n.dot(exact.origin - shape.support(n));
                EXPECT_GE(above, -allowed_epsilons * epsilon * radius) << name;
                // Normals go through the rounded inverses of nested maps.
                EXPECT_GE(n.dot(exact.direction), -32 * epsilon * exact.direction.norm()) << name;

@@ -65,8 +65,7 @@ Queries queries_of(const Shape& shape_in_double, int count, double distance, dou
                 Nested(shape_in_double),
                 AffineMap(Affine<double>{Mat3<double>::Identity() * scale, Vec3<double>::Zero()})});
   const Shape shape = scaled;
-  const Shape same = shape;
-  const Bounds<double> bounds = bounds_of(same);
+  const Bounds<double> bounds = bounds_of(shape);
   const double radius = bounds.half_extents().norm();
   const Vec3<double> centre = bounds.centre();
   const double epsilon = static_cast<double>(std::numeric_limits<double>::epsilon());
@@ -82,7 +81,7 @@ Queries queries_of(const Shape& shape_in_double, int count, double distance, dou
   const Long band = static_cast<Long>(allowed * epsilon * radius / thinnest);
   const auto meets = [&](const Ray<double>& ray, Long size) {
     const Vec3<Long> origin = exact(centre) + (exact(ray.origin) - exact(centre)) / size;
-    const auto line = line_in_shape(same, origin, exact(ray.direction) / size);
+    const auto line = line_in_shape(shape, origin, exact(ray.direction) / size);
     return !line->empty() && line->upper >= 0;
   };
 
@@ -93,8 +92,8 @@ Queries queries_of(const Shape& shape_in_double, int count, double distance, dou
     const Ray<double> wanted = rays.next(spread);
     const Ray<double> ray_in_T{wanted.origin.cast<double>(), wanted.direction.cast<double>()};
     const Ray<double> ray{ray_in_T.origin.cast<double>(), ray_in_T.direction.cast<double>()};
-    const auto line = line_in_shape(same, exact(ray.origin), exact(ray.direction));
-    const double towards = line->empty() ? 0 : steepness(same, ray, line->lower, radius);
+    const auto line = line_in_shape(shape, exact(ray.origin), exact(ray.direction));
+    const double towards = line->empty() ? 0 : steepness(shape, ray, line->lower, radius);
     all.queries.push_back({ray_in_T, meets(ray, 1 - band), meets(ray, 1 + band), *line, towards});
   }
   return all;

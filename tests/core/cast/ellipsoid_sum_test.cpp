@@ -50,10 +50,9 @@ struct SumsOutcome {
 
 SumsOutcome cast_at(const S& wanted, RayFamily family, int count) {
   const Shape shape = wanted;
-  const S same = shape;
   const PreparedShape prepared(shape);
-  const PortalCast portal(same);
-  FamilyRays rays(same, family, 71);
+  const PortalCast portal(shape);
+  FamilyRays rays(shape, family, 71);
   const double R = rays.ball().radius;
   // Distance from the silhouette within which either result is right, in units of R.
   const double band = 1e-14;

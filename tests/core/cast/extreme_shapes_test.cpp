@@ -198,10 +198,9 @@ TEST(ExtremeShapes, in_a_thin_skin_one_is_inside) {
 
 /// The plane of a miss separates: the whole of the ray lies before it.
 void expect_plane(const Shape& shape, const Ray<double>& ray, const CastResult<double>& miss) {
-  const Shape same = shape;
   const Vec3<Long> n = miss.normal.cast<Long>(), o = ray.origin.cast<Long>();
   EXPECT_NEAR(double(n.norm()), 1, 1e-6);
-  EXPECT_GT(double(n.dot(o - same.support(n))), 0);
+  EXPECT_GT(double(n.dot(o - shape.support(n))), 0);
   if (std::isfinite(ray.t_max)) return;
   EXPECT_GE(double(n.dot(ray.direction.cast<Long>())), -1e-6);
 }

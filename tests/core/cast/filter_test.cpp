@@ -144,10 +144,9 @@ TEST(Filter, misses_have_a_separating_plane) {
     SCOPED_TRACE(named.name);
     const Shape shape = named.shape;
     const PreparedShape prepared(shape);
-    const S same = shape;
     int misses = 0;
     for (const RayFamily family : {RayFamily::random, RayFamily::grazing}) {
-      FamilyRays rays(same, family, 75);
+      FamilyRays rays(shape, family, 75);
       const double R = rays.ball().radius;
       for (int i = 0; i < 1000; ++i) {
         const Ray<double> ray = rays.next();
@@ -156,7 +155,7 @@ TEST(Filter, misses_have_a_separating_plane) {
         ++misses;
         const Vec3<double> n = answer.normal.cast<double>();
         const Ray<double> exact = ray;
-        EXPECT_GT(n.dot(exact.origin - same.support(n)), -32 * epsilon * R);
+        EXPECT_GT(n.dot(exact.origin - shape.support(n)), -32 * epsilon * R);
         EXPECT_GT(n.dot(exact.direction), -8 * epsilon * exact.direction.norm());
       }
     }

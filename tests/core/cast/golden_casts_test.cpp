@@ -93,10 +93,9 @@ void cast_all(const Shape& shape, const Affine<double>& pose, AllBits& bits) {
   const Shape placed = Transform{shape, AffineMap(pose)};
   const Shape rounded = placed;
   const PreparedShape prepared(rounded);
-  const Shape same = rounded;
-  const SupportFunction support = supports_of(same);
+  const SupportFunction support = supports_of(rounded);
   for (const RayFamilyDescription& family : ray_families) {
-    FamilyRays rays(same, family.family, 2004);
+    FamilyRays rays(rounded, family.family, 2004);
     Random random(17);
     RayPacket packet;
     for (int i = 0; i < rays_each; ++i) {

@@ -18,11 +18,10 @@ class MillionCasts : public ::testing::TestWithParam<MeasuredShape> {};
 
 void expect_right(const MeasuredShape& measured, RayFamily family, int rays) {
   const Shape shape = measured.shape;
-  const Shape same = shape;
   const PreparedShape prepared(shape);
-  const PreparedShape prepared_same(same);
-  const CastJudge judge(same);
-  FamilyRays source(same, family, 77);
+  const PreparedShape prepared_same(shape);
+  const CastJudge judge(shape);
+  FamilyRays source(shape, family, 77);
   int hits = 0;
   for (int i = 0; i < rays; ++i) {
     const Ray<double> ray = source.next();

@@ -108,9 +108,8 @@ TEST(PolytopeFilter, packets_have_the_bits_of_single_rays) {
     SCOPED_TRACE(named.name);
     const Shape shape = S(Hull{PointCloud(named.points)});
     const PreparedShape prepared(shape);
-    const S same = shape;
     for (const RayFamilyDescription& family : ray_families) {
-      FamilyRays rays(same, family.family, 84);
+      FamilyRays rays(shape, family.family, 84);
       RayPacket packet;
       for (int i = 0; i < packet_lanes; ++i) packet.set(i, rays.next());
       for (const InstructionSet set : {InstructionSet::sse2, best_instruction_set()}) {

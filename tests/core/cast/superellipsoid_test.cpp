@@ -54,10 +54,9 @@ CastTruth truth_of(const Line& line, Long R) {
 
 CastOutcome cast_at(const Superellipsoid& wanted, RayFamily family, int count) {
   const Shape shape = Shape(wanted);
-  const Shape same = shape;
-  const auto& exact = std::get<Superellipsoid>(same.kind);
+  const auto& exact = std::get<Superellipsoid>(shape.kind);
   const PreparedShape prepared(shape);
-  FamilyRays rays(same, family, 83);
+  FamilyRays rays(shape, family, 83);
   const double R = rays.ball().radius;
   CastOutcome outcome;
   for (int i = 0; i < count; ++i) {
