@@ -190,13 +190,23 @@ void make_slabs_avx2(const char* rays, std::size_t stride, std::size_t count, Sl
   const __m256d sign = _mm256_set1_pd(-0.0);
   for (std::size_t i = 0; i < count; ++i, rays += stride) {
     const double* const from = reinterpret_cast<const double*>(rays);
-    const __m256d o = _mm256_loadu_pd(from), d = _mm256_loadu_pd(from + 3);
+    const __m256d o = _mm256_loadu_pd(from);
+    __m256d d = _mm256_loadu_pd(from + 3);
     const double x = std::abs(from[3]), y = std::abs(from[4]), z = std::abs(from[5]);
     const double xy = x > y ? x : y, largest = xy > z ? xy : z;
     SlabRay& to = slabs[i];
-    if (!(largest >= 0.5 && largest < 2)) [[unlikely]] {
-      to = SlabRay(*reinterpret_cast<const Ray<double>*>(from));
-      continue;
+    to.steps = 1;
+    if (!(largest >= 0.5 && largest < 2)) {
+      constexpr double most = 0x1p1000;
+      if (!(largest > 1 / most && largest < most)) [[unlikely]] {
+        to = SlabRay(*reinterpret_cast<const Ray<double>*>(from));
+        continue;
+      }
+      // 2^e above the largest component, and 2^-e, by their exponents' bits.
+      constexpr std::uint64_t exponent = 0x7FFull << 52, one = 1ull << 52, sum = 0x7FEull << 52;
+      const std::uint64_t steps = (std::bit_cast<std::uint64_t>(largest) & exponent) + one;
+      to.steps = std::bit_cast<double>(steps);
+      d = _mm256_mul_pd(d, _mm256_set1_pd(std::bit_cast<double>(sum - steps)));
     }
     const __m256d turn = _mm256_and_pd(d, sign), turned = _mm256_xor_pd(o, turn);
     const __m128 turn_float = _mm256_cvtpd_ps(turn);  // +0 or -0
@@ -219,7 +229,6 @@ void make_slabs_avx2(const char* rays, std::size_t stride, std::size_t count, Sl
     _mm_storeu_ps(numbers + 9, inverse);
     _mm_storeu_si128(reinterpret_cast<__m128i*>(to.numbers.near),
                      _mm_srli_epi32(_mm_castps_si128(turn_float), 31));
-    to.steps = 1;
     to.numbers.t_max = to.limit(from[6]);
   }
 }

@@ -1,49 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Casts up to 32 rays from one point with similar directions, such as a camera's, at a mesh
-// together: nodes are tested by bounds of all rays, leaves by each ray's own slabs. Edge functions
-// of a leaf are computed once, linear in the difference of a ray's direction from that of the
-// first. Everything here has internal linkage.
+// together. Edge functions of a leaf are computed once, linear in the difference of a ray's
+// direction from that of the first. Everything here has internal linkage.
 #include "core/mesh/mesh_walk.h"
 
 #if defined(__AVX2__)
+#include "core/bvh/ray_group.h"
 #include "core/mesh/triangle_lanes.h"
 
 namespace minkray {
 namespace {
 
-constexpr std::size_t rows = rays_of_group / 8;
-
 /// Leaves with fewer rays are faster one by one.
 constexpr std::uint32_t least_rays_of_leaf = 2;
-
-/// Slabs of all rays, side by side; unused lanes meet nothing.
-struct alignas(32) GroupSlabs {
-  float origin_near[3][rays_of_group], origin_far[3][rays_of_group];
-  float inverse[3][rays_of_group], t_max[rays_of_group];
-};
-
-[[gnu::always_inline]] inline float least_of(__m256 x) {
-  x = _mm256_min_ps(x, _mm256_permute2f128_ps(x, x, 1));
-  x = _mm256_min_ps(x, _mm256_permute_ps(x, 0x4E));
-  return _mm256_cvtss_f32(_mm256_min_ps(x, _mm256_permute_ps(x, 0xB1)));
-}
-[[gnu::always_inline]] inline float greatest_of(__m256 x) {
-  x = _mm256_max_ps(x, _mm256_permute2f128_ps(x, x, 1));
-  x = _mm256_max_ps(x, _mm256_permute_ps(x, 0x4E));
-  return _mm256_cvtss_f32(_mm256_max_ps(x, _mm256_permute_ps(x, 0xB1)));
-}
-[[gnu::always_inline]] inline float least_of(const float (&of)[rays_of_group]) {
-  __m256 least = _mm256_load_ps(of);
-  for (std::size_t row = 1; row < rows; ++row)
-    least = _mm256_min_ps(least, _mm256_load_ps(of + 8 * row));
-  return least_of(least);
-}
-[[gnu::always_inline]] inline float greatest_of(const float (&of)[rays_of_group]) {
-  __m256 greatest = _mm256_load_ps(of);
-  for (std::size_t row = 1; row < rows; ++row)
-    greatest = _mm256_max_ps(greatest, _mm256_load_ps(of + 8 * row));
-  return greatest_of(greatest);
-}
 
 /// Edge functions of a leaf's triangles for the first ray, and how they change with shears.
 struct LeafEdges {
@@ -66,32 +35,15 @@ class Group {
     const double* const first = reinterpret_cast<const double*>(&rays_[0].ray);
     SlabRay slabs[rays_of_group];
     make_slabs_avx2(reinterpret_cast<const char*>(&rays_[0].ray), sizeof(PartRay), count_, slabs);
-    bool is_alike = true;
+    bool is_alike = slabs_.take(slabs, count_);
     for (std::size_t i = 0; i < count_; ++i) {
       const double* const ray = reinterpret_cast<const double*>(&rays_[i].ray);
       leaf_[i] = leaf_ray(ray, ray + 3, ray[6]);
       steps_[i] = slabs[i].steps;
       is_alike &= leaf_[i].z == leaf_[0].z && leaf_[i].sign == leaf_[0].sign;
-      const SlabNumbers& numbers = slabs[i].numbers;
-      for (std::size_t k = 0; k < 3; ++k) {
-        is_alike &= ray[k] == first[k] && numbers.near[k] == slabs[0].numbers.near[k] &&
-                    std::abs(numbers.inverse_far[k]) < std::numeric_limits<float>::max();
-        slabs_.origin_near[k][i] = numbers.origin_near[k];
-        slabs_.origin_far[k][i] = numbers.origin_far[k];
-        slabs_.inverse[k][i] = numbers.inverse_far[k];
-      }
-      slabs_.t_max[i] = numbers.t_max;
+      for (std::size_t k = 0; k < 3; ++k) is_alike &= ray[k] == first[k];
     }
     if (!is_alike) return false;
-    for (std::size_t i = count_; i < rays_of_group; ++i) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        slabs_.origin_near[k][i] = slabs_.origin_near[k][0];
-        slabs_.origin_far[k][i] = slabs_.origin_far[k][0];
-        slabs_.inverse[k][i] = slabs_.inverse[k][0];
-      }
-      slabs_.t_max[i] = -1;
-    }
-    for (int k = 0; k < 3; ++k) near_[k] = slabs[0].numbers.near[k];
     double widest = 0;
     for (std::size_t i = 0; i < count_; ++i)
       for (std::size_t k = 0; k < 2; ++k) {
@@ -107,96 +59,16 @@ class Group {
 
   /// Returns the number of rays tested in each leaf.
   std::uint32_t walk() {
-    struct Waiting {
-      float enter;
-      std::uint32_t node, child;
-    };
-    Waiting stack[bvh_max_depth * (bvh_width - 1) + 1 + bvh_width];
-    int top = 0;
-    std::uint32_t leaves = 0, looks = 0, node_number = 0;
-    float inverse_low[3], inverse_high[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-      inverse_low[k] = least_of(slabs_.inverse[k]);
-      inverse_high[k] = greatest_of(slabs_.inverse[k]);
-    }
-    float t_max = greatest_of(slabs_.t_max);
-    for (;;) {
-      ++counts_.nodes;
-      const BvhNode& node = view_.nodes[node_number];
-      // Inverses have one sign: products with the least and the greatest of them bound the others,
-      // since rounding keeps their order.
-      __m256 enter = _mm256_setzero_ps(), leave = _mm256_set1_ps(t_max);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const __m256 low = _mm256_set1_ps(inverse_low[k]), high = _mm256_set1_ps(inverse_high[k]);
-        const __m256 in = _mm256_sub_ps(_mm256_load_ps(node.planes[near_[k]][k]),
-                                        _mm256_set1_ps(slabs_.origin_near[k][0]));
-        const __m256 out = _mm256_sub_ps(_mm256_load_ps(node.planes[1 - near_[k]][k]),
-                                         _mm256_set1_ps(slabs_.origin_far[k][0]));
-        enter =
-            _mm256_max_ps(_mm256_min_ps(_mm256_mul_ps(in, low), _mm256_mul_ps(in, high)), enter);
-        leave =
-            _mm256_min_ps(_mm256_max_ps(_mm256_mul_ps(out, low), _mm256_mul_ps(out, high)), leave);
-      }
-      const __m256 padded = _mm256_add_ps(_mm256_mul_ps(leave, _mm256_set1_ps(slab_padding)),
-                                          _mm256_set1_ps(slab_tiny));
-      auto met =
-          static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(enter, padded, _CMP_LE_OQ)));
-      alignas(32) float enters[8];
-      _mm256_store_ps(enters, enter);
-      for (const int bottom = top; met != 0; met &= met - 1) {
-        const auto child = static_cast<std::uint32_t>(__builtin_ctz(met));
-        if (node.children[child] == BvhNode::none) break;
-        int at = top++;
-        for (; at > bottom && stack[at - 1].enter < enters[child]; --at) stack[at] = stack[at - 1];
-        stack[at] = {enters[child], node_number, child};
-      }
-      for (;;) {
-        if (top == 0) return leaves == 0 ? rays_of_group : looks / leaves;
-        const Waiting next = stack[--top];
-        if (!(next.enter <= t_max)) continue;
-        const BvhNode& of = view_.nodes[next.node];
-        const std::uint32_t what = of.children[next.child];
-        const bool is_leaf = (what & BvhNode::leaf) != 0;
-        const std::uint32_t in = rays_in(of, next.child, is_leaf);
-        if (in == 0) continue;
-        if (!is_leaf) {
-          node_number = what;
-          break;
-        }
-        ++leaves;
-        looks += static_cast<std::uint32_t>(__builtin_popcount(in));
-        if (look_at(view_.leaves[what & ~BvhNode::leaf], in)) t_max = greatest_of(slabs_.t_max);
-      }
-    }
+    std::uint32_t leaves = 0, looks = 0;
+    counts_.nodes += slabs_.walk(view_.nodes, [&](std::uint32_t leaf, std::uint32_t in) {
+      ++leaves;
+      looks += static_cast<std::uint32_t>(__builtin_popcount(in));
+      return look_at(view_.leaves[leaf], in);
+    });
+    return leaves == 0 ? rays_of_group : looks / leaves;
   }
 
  private:
-  /// The rays that meet a child's box; if not all matter, no more than one row of them.
-  [[gnu::always_inline]] std::uint32_t rays_in(const BvhNode& node, std::uint32_t child,
-                                               bool all) const {
-    std::uint32_t in = 0;
-    for (std::size_t row = 0; row < rows; ++row) {
-      __m256 enter = _mm256_setzero_ps(), leave = _mm256_load_ps(slabs_.t_max + 8 * row);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const __m256 inverse = _mm256_load_ps(slabs_.inverse[k] + 8 * row);
-        enter = _mm256_max_ps(_mm256_mul_ps(_mm256_set1_ps(node.planes[near_[k]][k][child] -
-                                                           slabs_.origin_near[k][0]),
-                                            inverse),
-                              enter);
-        leave = _mm256_min_ps(_mm256_mul_ps(_mm256_set1_ps(node.planes[1 - near_[k]][k][child] -
-                                                           slabs_.origin_far[k][0]),
-                                            inverse),
-                              leave);
-      }
-      const __m256 padded = _mm256_add_ps(_mm256_mul_ps(leave, _mm256_set1_ps(slab_padding)),
-                                          _mm256_set1_ps(slab_tiny));
-      in |= static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_cmp_ps(enter, padded, _CMP_LE_OQ)))
-            << (8 * row);
-      if (!all && in != 0) return in;
-    }
-    return in;
-  }
-
   /// Same as lanes_that_may_be_met, with these bounds. For a ray whose shears are dx and dy more,
   /// an edge function is at_first - dx by_x - dy by_y, without any rest. P is the largest sheared
   /// coordinate of the first ray, Z that of z, g the widest shear, u = 2^-24:
@@ -309,10 +181,7 @@ class Group {
     leaf_[i].reach = (hit.t + hit.error) * leaf_[i].length;
     SlabRay limits;
     limits.steps = steps_[i];
-    const float limit = limits.limit(hit.t + hit.error);
-    if (!(limit < slabs_.t_max[i])) return false;
-    slabs_.t_max[i] = limit;
-    return true;
+    return slabs_.lower(i, limits.limit(hit.t + hit.error));
   }
 
   const MeshView& view_;
@@ -320,9 +189,8 @@ class Group {
   PartHit* hits_;
   PartCounts& counts_;
   std::size_t count_;
-  int near_[3];
   double widest_;  ///< shear from the first ray's
-  GroupSlabs slabs_;
+  RayGroup slabs_;
   LeafRay leaf_[rays_of_group];
   double steps_[rays_of_group];
   float apart_[rays_of_group][2];  ///< shears, without the first ray's

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/bvh/group_walk.h"
 #include "core/bvh/stream.h"
 #include "core/mesh/mesh_rays.h"
 
@@ -95,7 +96,6 @@ inline constexpr std::size_t most_rays_of_walk = 1024;
 void closest_parts_avx2(const MeshView& view, const PartRay* rays, std::size_t count, PartHit* hits,
                         PartCounts& counts);
 /// Casts up to rays_of_group suitable rays with similar directions.
-inline constexpr std::size_t rays_of_group = 32;
 enum class GroupResult : unsigned char {
   none,       ///< the directions are too different: no ray was cast
   alike,      ///< all rays have results

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/world/posed_mesh.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -28,42 +29,62 @@ constexpr double shortest = 0x1p-64;
 /// this one's t in the search, by this share of it.
 constexpr double rounding_of_most = 0x1p-20;
 
-/// The ray in the mesh's frame. Its direction is longer by 2^exponent there.
+/// A ray in the mesh's frame.
 struct NearRay {
-  Ray<double> ray;
-  double origin_loss = 0, direction_loss = 0;  ///< bounds on their errors
-  int exponent = 0;
+  PartRay part;
+  MapLoss loss;
   bool is_number = true;
-
-  double in_near(double t) const { return exponent == 0 ? t : std::ldexp(t, -exponent); }
-  double in_world(double t) const { return exponent == 0 ? t : std::ldexp(t, exponent); }
 };
 
-NearRay near_ray(const PosedMesh& posed, const Ray<double>& ray,
-                 double most = std::numeric_limits<double>::infinity()) {
-  NearRay near;
+double in_near(const MapLoss& loss, double t) {
+  return loss.exponent == 0 ? t : std::ldexp(t, -loss.exponent);
+}
+double in_world(const MapLoss& loss, double t) {
+  return loss.exponent == 0 ? t : std::ldexp(t, loss.exponent);
+}
+
+/// Maps the ray to the mesh's frame. Returns false if its numbers are too large, or if its
+/// direction is zero.
+bool map_ray(const PosedMesh& posed, const Ray<double>& ray, double most, Ray<double>& near,
+             MapLoss& loss) {
   const double size = ray.direction.cwiseAbs().maxCoeff();
   Vec3<double> direction = ray.direction;
+  loss.exponent = 0;
   if (!(size > shortest && size < 1 / shortest)) [[unlikely]] {
-    std::frexp(size, &near.exponent);
-    near.exponent = -near.exponent;
-    for (double& x : direction) x = std::ldexp(x, near.exponent);
+    std::frexp(size, &loss.exponent);
+    loss.exponent = -loss.exponent;
+    for (double& x : direction) x = std::ldexp(x, loss.exponent);
   }
   const TwoFoldVec3<double> from = exact_difference(ray.origin, posed.pose.translation);
   if (posed.is_turned) {
-    near.ray.origin = posed.to_mesh * from.high + posed.to_mesh * from.low;
-    near.ray.direction = posed.to_mesh * direction;
+    near.origin = posed.to_mesh * from.high + posed.to_mesh * from.low;
+    near.direction = posed.to_mesh * direction;
     const Mat3<double> sizes = posed.to_mesh.cwiseAbs();
-    near.origin_loss = map_rounding * (sizes * from.high.cwiseAbs()).norm();
-    near.direction_loss = map_rounding * (sizes * direction.cwiseAbs()).norm();
+    loss.origin = map_rounding * (sizes * from.high.cwiseAbs()).norm();
+    loss.direction = map_rounding * (sizes * direction.cwiseAbs()).norm();
   } else {
-    near.ray.origin = from.rounded();
-    near.ray.direction = direction;
-    if (!from.low.isZero(0)) near.origin_loss = from.low.norm();
+    near.origin = from.rounded();
+    near.direction = direction;
+    loss.origin = from.low.isZero(0) ? 0 : from.low.norm();
+    loss.direction = 0;
   }
-  near.ray.t_max = std::min(near.in_near(ray.t_max), near.in_near(most) * (1 + rounding_of_most));
-  near.is_number = size > 0 && near.ray.origin.cwiseAbs().maxCoeff() <= largest_number &&
-                   near.ray.direction.cwiseAbs().maxCoeff() <= largest_number;
+  near.t_max = std::min(in_near(loss, ray.t_max), in_near(loss, most) * (1 + rounding_of_most));
+  return size > 0 && near.origin.cwiseAbs().maxCoeff() <= largest_number &&
+         near.direction.cwiseAbs().maxCoeff() <= largest_number;
+}
+
+double t_min_of(const PosedMesh& posed, const Ray<double>& near, bool leaves) {
+  if (!leaves) return 0;
+  const double reach =
+      posed.mesh->bounds().reach_of_centre().maxCoeff() + near.origin.cwiseAbs().maxCoeff();
+  return leaving_mesh * reach / near.direction.cwiseAbs().maxCoeff();
+}
+
+NearRay near_ray(const PosedMesh& posed, const Ray<double>& ray, double loss = 0,
+                 double most = std::numeric_limits<double>::infinity()) {
+  NearRay near;
+  near.loss.before = loss;
+  near.is_number = map_ray(posed, ray, most, near.part.ray, near.loss);
   return near;
 }
 
@@ -74,13 +95,6 @@ double rest_of(const Vec3<double>& corner, const Vec3<double>& normal, const Ray
   TwoFoldVec3<double> from_corner = exact_difference(ray.origin, corner);
   for (int k = 0; k < 3; ++k) from_corner.set(k, from_corner[k] + two_product(t, ray.direction[k]));
   return -normal.dot(from_corner.rounded()) / normal.dot(ray.direction);
-}
-
-double t_min_of(const PosedMesh& posed, const NearRay& near, bool leaves) {
-  if (!leaves) return 0;
-  const double reach =
-      posed.mesh->bounds().reach_of_centre().maxCoeff() + near.ray.origin.cwiseAbs().maxCoeff();
-  return leaving_mesh * reach / near.ray.direction.cwiseAbs().maxCoeff();
 }
 
 /// Result for a ray whose numbers are too large, or whose direction is zero.
@@ -98,32 +112,39 @@ bool is_missed_from_behind(const TriangleMesh& mesh, const PartHit& hit) {
   return mesh.sides() == MeshSides::front && hit.is_back;
 }
 
-MeshCast cast_of(const PosedMesh& posed, const NearRay& near, const PartHit& hit, double loss) {
-  MeshCast answer;
+/// Writes the cast that found the hit. The answer must be as constructed.
+void write_cast(const PosedMesh& posed, const Ray<double>& near, const MapLoss& loss,
+                const PartHit& hit, MeshCast& answer) {
   CastResult<double>& cast = answer.cast;
-  cast.status = Status::miss;
-  cast.path = Path::filter;
-  if (!hit.found() || is_missed_from_behind(*posed.mesh, hit)) return answer;
   // For the shortest directions t is not a finite number: the cast is exhausted.
-  if (!std::isfinite(near.in_world(hit.t))) return {};
+  const bool is_found = hit.found() && !is_missed_from_behind(*posed.mesh, hit);
+  if (is_found && !std::isfinite(in_world(loss, hit.t))) return;
+  cast.path = Path::filter;
+  cast.status = is_found ? Status::hit : Status::miss;
+  if (!is_found) return;
   answer.part = hit.part;
   const Vec3<double> normal = posed.mesh->normal(hit.part) * (hit.is_back ? -1.0 : 1.0);
   // If the ray is uncertain, so is its distance to the triangle's plane.
-  const double beside =
-      near.origin_loss + loss * posed.to_mesh.norm() + hit.t * near.direction_loss;
+  double beside = loss.origin;
+  if (loss.before > 0) beside += loss.before * posed.to_mesh.norm();
+  beside += hit.t * loss.direction;
   double error = hit.error;
   if (beside > 0) {
-    const double fall = -normal.dot(near.ray.direction) - near.direction_loss;
+    const double fall = -normal.dot(near.direction) - loss.direction;
     error = fall > 0 ? error + beside / fall : std::numeric_limits<double>::infinity();
   }
-  cast.status = Status::hit;
-  const double rest = rest_of(posed.mesh->corner(hit.part, 0), normal, near.ray, hit.t);
-  cast.t_base = near.in_world(hit.t);
-  cast.t_offset = std::abs(rest) <= error ? near.in_world(rest) : 0;
-  cast.offset_lo = near.in_world(std::max(-error, -hit.t));
-  cast.offset_hi = near.in_world(error);
+  const double rest = rest_of(posed.mesh->corner(hit.part, 0), normal, near, hit.t);
+  cast.t_base = in_world(loss, hit.t);
+  cast.t_offset = std::abs(rest) <= error ? in_world(loss, rest) : 0;
+  cast.offset_lo = in_world(loss, std::max(-error, -hit.t));
+  cast.offset_hi = in_world(loss, error);
   cast.normal =
       posed.is_turned ? Vec3<double>((posed.to_mesh.transpose() * normal).normalized()) : normal;
+}
+
+MeshCast cast_of(const PosedMesh& posed, const NearRay& near, const PartHit& hit) {
+  MeshCast answer;
+  write_cast(posed, near.part.ray, near.loss, hit, answer);
   return answer;
 }
 
@@ -145,32 +166,54 @@ Bounds<double> PosedMesh::bounds_under(const Affine<double>& other) const {
 
 MeshCast cast_ray(const PosedMesh& posed, const Ray<double>& ray, double most, bool leaves,
                   double loss, PartCounts& counts) {
-  const NearRay near = near_ray(posed, ray, most);
+  const NearRay near = near_ray(posed, ray, loss, most);
   if (!near.is_number) return without_hit(ray);
-  const PartHit hit = closest_part(*posed.mesh, near.ray, t_min_of(posed, near, leaves), counts);
-  return cast_of(posed, near, hit, loss);
+  const double t_min = t_min_of(posed, near.part.ray, leaves);
+  return cast_of(posed, near, closest_part(*posed.mesh, near.part.ray, t_min, counts));
 }
 
-void cast_for(const PosedMesh& posed, std::span<const MeshQuery> queries, PartCounts& counts,
-              const CastTaker& taker) {
-  FirstTouchVector<NearRay> near;
-  FirstTouchVector<PartRay> rays;
-  near.resize(queries.size());
-  rays.resize(queries.size());
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    const MeshQuery& query = queries[i];
-    near[i] = near_ray(posed, query.ray, query.most);
-    if (near[i].is_number) rays[count++] = {near[i].ray, t_min_of(posed, near[i], query.leaves)};
+void RaysAtMesh::begin(const PosedMesh& posed, std::size_t most_rays) {
+  posed_ = &posed;
+  count_ = 0;
+  if (rays_.size() >= most_rays) return;
+  rays_.resize(most_rays);
+  losses_.resize(most_rays);
+  numbers_.resize(most_rays);
+}
+
+bool RaysAtMesh::add(std::uint32_t number, const Ray<double>& ray, double most, bool leaves,
+                     double loss) {
+  PartRay& part = rays_[count_];
+  MapLoss& of_map = losses_[count_];
+  of_map.before = loss;
+  if (!map_ray(*posed_, ray, most, part.ray, of_map)) [[unlikely]]
+    return false;
+  part.t_min = t_min_of(*posed_, part.ray, leaves);
+  numbers_[count_++] = number;
+  return true;
+}
+
+void RaysAtMesh::find_closest(PartCounts& counts) {
+  hits_.resize(std::max(hits_.size(), count_));
+  closest_parts(*posed_->mesh, std::span(rays_.data(), count_), hits_, counts);
+}
+
+void RaysAtMesh::find_any(std::span<std::uint8_t> met, PartCounts& counts) {
+  if (posed_->mesh->sides() == MeshSides::front) {
+    find_closest(counts);
+    for (std::size_t i = 0; i < count_; ++i)
+      if (hits_[i].found() && !is_missed_from_behind(*posed_->mesh, hits_[i])) met[numbers_[i]] = 1;
+    return;
   }
-  FirstTouchVector<PartHit> hits;
-  hits.resize(count);
-  closest_parts(*posed.mesh, std::span(rays.data(), count), hits, counts);
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < queries.size(); ++i)
-    taker.take(taker.context, i,
-               near[i].is_number ? cast_of(posed, near[i], hits[next++], queries[i].loss)
-                                 : without_hit(queries[i].ray));
+  met_.resize(std::max(met_.size(), count_));
+  meet_parts(*posed_->mesh, std::span(rays_.data(), count_), met_, counts);
+  for (std::size_t i = 0; i < count_; ++i) met[numbers_[i]] |= met_[i];
+}
+
+MeshCast RaysAtMesh::closest(std::size_t i) const {
+  MeshCast answer;
+  write_cast(*posed_, rays_[i].ray, losses_[i], hits_[i], answer);
+  return answer;
 }
 
 CastResult<double> cast_exit(const PosedMesh& posed, const Ray<double>& ray) {
@@ -178,45 +221,45 @@ CastResult<double> cast_exit(const PosedMesh& posed, const Ray<double>& ray) {
   exit.status = Status::miss;
   const NearRay near = near_ray(posed, ray);
   if (!near.is_number) return exit;
-  const std::vector<PartHit> hits = all_parts(*posed.mesh, near.ray);
+  const std::vector<PartHit> hits = all_parts(*posed.mesh, near.part.ray);
   if (hits.empty()) return exit;
   // Triangles that share the corner or edge where the ray enters count as one hit.
   const double same = leaving_mesh * (hits[0].t + posed.mesh->bounds().reach_of_centre().norm());
   std::size_t last = 0;
   while (last + 1 < hits.size() && hits[last].t - hits[0].t <= same) ++last;
   exit.status = Status::hit;
-  exit.t_offset = near.in_world(hits[last].t);
+  exit.t_offset = in_world(near.loss, hits[last].t);
   return exit;
 }
 
 MeshCast cast_last_exit(const PosedMesh& posed, const Ray<double>& ray, double loss) {
-  const NearRay near = near_ray(posed, ray);
+  const NearRay near = near_ray(posed, ray, loss);
   if (!near.is_number) return without_hit(ray);
   const TriangleMesh& mesh = *posed.mesh;
-  if (std::isfinite(near.ray.t_max) && mesh.is_closed()) {
-    Ray<double> endless = near.ray;
+  if (std::isfinite(near.part.ray.t_max) && mesh.is_closed()) {
+    Ray<double> endless = near.part.ray;
     endless.t_max = std::numeric_limits<double>::infinity();
     int turns = 0;
     for (const PartHit& hit : crossings(mesh, endless))
-      if (hit.t > near.ray.t_max) turns += hit.is_back ? 1 : -1;
+      if (hit.t > near.part.ray.t_max) turns += hit.is_back ? 1 : -1;
     if (turns != 0) {
       MeshCast end;
       end.cast = {Status::inside, Path::filter, ray.t_max, 0, 0, 0};
       return end;
     }
   }
-  std::vector<PartHit> hits = all_parts(mesh, near.ray);
+  std::vector<PartHit> hits = all_parts(mesh, near.part.ray);
   std::erase_if(hits, [&](const PartHit& hit) { return is_missed_from_behind(mesh, hit); });
   PartHit last;
   for (const PartHit& hit : hits)
     if (!last.found() || hit.t > last.t) last = hit;
-  MeshCast exit = cast_of(posed, near, last, loss);
+  MeshCast exit = cast_of(posed, near, last);
   if (exit.cast.status != Status::hit) return exit;
   exit.cast.normal *= -1;
   // Within the errors, another triangle may be the last one.
   for (const PartHit& hit : hits) {
     if (hit.t + hit.error < last.t - last.error) continue;
-    const CastResult<double> other = cast_of(posed, near, hit, loss).cast;
+    const CastResult<double> other = cast_of(posed, near, hit).cast;
     exit.cast.offset_hi =
         std::max(exit.cast.offset_hi,
                  sum_or_more(sum_or_more(other.t_base, other.offset_hi), -exit.cast.t_base));
@@ -226,11 +269,11 @@ MeshCast cast_last_exit(const PosedMesh& posed, const Ray<double>& ray, double l
 
 bool add_crossings(const PosedMesh& posed, const Ray<double>& ray, double loss,
                    std::vector<MeshCrossing>& to) {
-  const NearRay near = near_ray(posed, ray);
+  const NearRay near = near_ray(posed, ray, loss);
   if (!near.is_number) return without_hit(ray).cast.status == Status::miss;
-  for (const PartHit& hit : crossings(*posed.mesh, near.ray)) {
+  for (const PartHit& hit : crossings(*posed.mesh, near.part.ray)) {
     if (is_missed_from_behind(*posed.mesh, hit)) continue;
-    MeshCast at = cast_of(posed, near, hit, loss);
+    MeshCast at = cast_of(posed, near, hit);
     if (!at.cast.found()) return false;
     if (hit.is_back) at.cast.normal *= -1;
     to.push_back({at, hit.is_back});
@@ -241,32 +284,11 @@ bool add_crossings(const PosedMesh& posed, const Ray<double>& ray, double loss,
 bool is_met(const PosedMesh& posed, const Ray<double>& ray, bool leaves, PartCounts& counts) {
   const NearRay near = near_ray(posed, ray);
   if (!near.is_number) return false;
-  const double t_min = t_min_of(posed, near, leaves);
+  const double t_min = t_min_of(posed, near.part.ray, leaves);
   if (posed.mesh->sides() == MeshSides::both)
-    return meets_part(*posed.mesh, near.ray, t_min, counts);
-  const PartHit hit = closest_part(*posed.mesh, near.ray, t_min, counts);
+    return meets_part(*posed.mesh, near.part.ray, t_min, counts);
+  const PartHit hit = closest_part(*posed.mesh, near.part.ray, t_min, counts);
   return hit.found() && !is_missed_from_behind(*posed.mesh, hit);
-}
-
-void are_met(const PosedMesh& posed, std::span<const MeshQuery> queries,
-             std::span<std::uint8_t> met, PartCounts& counts) {
-  if (posed.mesh->sides() == MeshSides::front) {
-    for (std::size_t i = 0; i < queries.size(); ++i)
-      met[i] = is_met(posed, queries[i].ray, queries[i].leaves, counts) ? 1 : 0;
-    return;
-  }
-  std::vector<PartRay> rays;
-  std::vector<std::size_t> number;
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    met[i] = 0;
-    const NearRay near = near_ray(posed, queries[i].ray);
-    if (!near.is_number) continue;
-    rays.push_back({near.ray, t_min_of(posed, near, queries[i].leaves)});
-    number.push_back(i);
-  }
-  std::vector<std::uint8_t> are(rays.size());
-  meet_parts(*posed.mesh, rays, are, counts);
-  for (std::size_t i = 0; i < are.size(); ++i) met[number[i]] = are[i];
 }
 
 }  // namespace minkray

@@ -4,35 +4,53 @@
 
 #include <span>
 
+#include "core/mesh/mesh_rays.h"
+#include "core/parallel/first_touch.h"
 #include "core/world/posed_mesh.h"
 
 namespace minkray {
 
-/// Parameters of a ray for cast_ray.
-struct MeshQuery {
-  Ray<double> ray;
-  double most = std::numeric_limits<double>::infinity();
-  bool leaves = false;
-  double loss = 0;
+/// Errors of a ray that is mapped to a mesh's frame.
+struct MapLoss {
+  double before = 0;                 ///< of the ray's position before the map
+  double origin = 0, direction = 0;  ///< of the map
+  int exponent = 0;                  ///< the mapped direction is longer by 2^exponent
 };
 
-struct CastTaker {
-  void (*take)(void* context, std::size_t i, const MeshCast& cast);
-  void* context;
+/// Rays that are cast at one mesh together. Its memory serves several meshes in turn.
+class RaysAtMesh {
+ public:
+  /// Forgets all rays. At most `most_rays` are added from now on, for this mesh.
+  void begin(const PosedMesh& posed, std::size_t most_rays);
+  /// Adds a ray, with the parameters of cast_ray, under the caller's number. Returns false, and
+  /// adds nothing, if the direction is zero or numbers are too large.
+  bool add(std::uint32_t number, const Ray<double>& ray, double most, bool leaves, double loss);
+  std::size_t size() const { return count_; }
+
+  void find_closest(PartCounts& counts);
+  /// Calls take(number, cast) for each ray that hits the mesh, or whose cast is exhausted, with the
+  /// result of cast_ray. Only after find_closest.
+  template <class Take>
+  void each_closest(Take&& take) const {
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (!hits_[i].found()) continue;
+      if (const MeshCast cast = closest(i); cast.cast.status != Status::miss)
+        take(numbers_[i], cast);
+    }
+  }
+  /// Sets met[number] to 1 for each ray for which is_met is true.
+  void find_any(std::span<std::uint8_t> met, PartCounts& counts);
+
+ private:
+  MeshCast closest(std::size_t i) const;
+
+  const PosedMesh* posed_ = nullptr;
+  std::size_t count_ = 0;
+  FirstTouchVector<PartRay> rays_;
+  FirstTouchVector<MapLoss> losses_;
+  FirstTouchVector<std::uint32_t> numbers_;
+  FirstTouchVector<PartHit> hits_;
+  FirstTouchVector<std::uint8_t> met_;
 };
-void cast_for(const PosedMesh& posed, std::span<const MeshQuery> queries, PartCounts& counts,
-              const CastTaker& taker);
-/// Calls take(i, cast) for each query in order; `cast` is the result of cast_ray for queries[i].
-template <class Take>
-void cast_rays(const PosedMesh& posed, std::span<const MeshQuery> queries, PartCounts& counts,
-               Take&& take) {
-  const auto plain = [](void* context, std::size_t i, const MeshCast& cast) {
-    (*static_cast<std::remove_reference_t<Take>*>(context))(i, cast);
-  };
-  cast_for(posed, queries, counts, CastTaker{plain, &take});
-}
-/// Sets met[i] to the result of is_met for queries[i], as 1 or 0. Ignores `most` and `loss`.
-void are_met(const PosedMesh& posed, std::span<const MeshQuery> queries,
-             std::span<std::uint8_t> met, PartCounts& counts);
 
 }  // namespace minkray

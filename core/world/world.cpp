@@ -32,12 +32,9 @@ World::World(Instances instances, const CastOptions& options, BvhBuild build)
   this->build(instances_.take_boxes());
 }
 
-std::vector<Bounds<float>> World::boxes_of_meshes(
-    const FirstTouchVector<Bounds<float>>& boxes) const {
-  std::vector<Bounds<float>> of_meshes;
-  of_meshes.reserve(instances_.meshes().size());
-  for (const PosedMesh& mesh : instances_.meshes()) of_meshes.push_back(boxes[mesh.instance]);
-  return of_meshes;
+void World::take_boxes_of_meshes(const FirstTouchVector<Bounds<float>>& boxes) {
+  boxes_of_meshes_.clear();
+  for (const PosedMesh& mesh : instances_.meshes()) boxes_of_meshes_.push_back(boxes[mesh.instance]);
 }
 
 /// The BVH contains all shapes that a ray can hit first.
@@ -45,7 +42,8 @@ void World::build(const FirstTouchVector<Bounds<float>>& boxes) {
   kind_of_all_ = instances_.kind_of_all();
   repeated_ = repeated_instances(instances_);
   const RayKinds* const shown_to = instances_.shown_to();
-  mesh_boxes_ = build_bvh(boxes_of_meshes(boxes), build_);
+  take_boxes_of_meshes(boxes);
+  mesh_boxes_ = build_bvh(boxes_of_meshes_, build_);
   if (!instances_.have_shapeless() && repeated_.empty() && !shown_to) {
     bvh_ = build_bvh(boxes, build_);
     return;
@@ -197,7 +195,8 @@ void World::pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
     return;
   }
   refit(bvh_, boxes);
-  refit(mesh_boxes_, boxes_of_meshes(boxes));
+  take_boxes_of_meshes(boxes);
+  refit(mesh_boxes_, boxes_of_meshes_);
   if (visits() > most_visits_after_refit * visits_as_built_) {
     build(boxes);
     visits_as_built_ = visits();

@@ -101,7 +101,7 @@ class World {
 
  private:
   void build(const FirstTouchVector<Bounds<float>>& boxes);
-  std::vector<Bounds<float>> boxes_of_meshes(const FirstTouchVector<Bounds<float>>& boxes) const;
+  void take_boxes_of_meshes(const FirstTouchVector<Bounds<float>>& boxes);
   /// Casts at an instance that does not move, with the default options.
   CastResult<double> cast_at_rest(std::uint32_t instance, const Ray<double>& ray) const;
   void add_shape_crossings(const WorldRay& ray, std::uint32_t instance,
@@ -124,6 +124,8 @@ class World {
   /// is_exhausted[i] to 1 if a cast of rays[i] does not converge.
   void closest_shapeless(const RaySpan& rays, std::span<WorldHit> closest,
                          std::span<std::uint8_t> is_exhausted, QueryCounts& counts) const;
+  /// Same as closest_hits, in a world of half-spaces and meshes alone.
+  void answer_shapeless(const RaySpan& rays, HitReceiver& to, QueryCounts& counts) const;
   /// Sets met[i] to 1 if a half-space or mesh blocks rays[i], to 0 if not.
   void blocked_by_shapeless(const RaySpan& rays, std::span<std::uint8_t> met,
                             QueryCounts& counts) const;
@@ -147,6 +149,7 @@ class World {
   Instances instances_;
   Bvh bvh_;         ///< contains the instances with shapes
   Bvh mesh_boxes_;  ///< contains the meshes, by their index in Instances::meshes()
+  std::vector<Bounds<float>> boxes_of_meshes_;
   BvhBuild build_ = BvhBuild::quality;
   /// Left out of the BVH; by the instances that they are the same as.
   std::vector<RepeatedInstance> repeated_;

@@ -10,6 +10,9 @@ namespace {
 /// Least number of rays for a stream or a block; fewer are faster one by one.
 constexpr std::size_t least_stream = 4, least_block = 16;
 
+/// Number of rays that are cast together in a world of half-spaces and meshes.
+constexpr std::size_t rays_at_shapeless = 512;
+
 /// True if the first and the last ray have the same origin and similar directions, as all rays of a
 /// block must.
 bool may_be_block(const RaySpan& rays) {
@@ -49,6 +52,10 @@ void World::closest_hits(const RaySpan& rays, HitReceiver& to, QueryCounts& coun
     }
     return;
   }
+  if (bvh_.nodes.empty()) {
+    answer_shapeless(rays, to, counts);
+    return;
+  }
   std::size_t waiting = 0;  ///< rays from here on wait for a stream
   const auto stream_up_to = [&](std::size_t end) {
     for (; waiting < end; waiting += std::min(rays_of_stream, end - waiting))
@@ -64,6 +71,18 @@ void World::closest_hits(const RaySpan& rays, HitReceiver& to, QueryCounts& coun
     waiting = first + count;
   }
   stream_up_to(rays.size());
+}
+
+void World::answer_shapeless(const RaySpan& rays, HitReceiver& to, QueryCounts& counts) const {
+  std::vector<WorldHit> hits(std::min(rays.size(), rays_at_shapeless));
+  std::vector<std::uint8_t> is_exhausted(hits.size());
+  for (std::size_t first = 0; first < rays.size(); first += rays_at_shapeless) {
+    const std::size_t count = std::min(rays_at_shapeless, rays.size() - first);
+    const std::span closest(hits.data(), count);
+    std::ranges::fill(closest, WorldHit::miss());
+    closest_shapeless(rays.part(first, count), closest, is_exhausted, counts);
+    for (std::size_t i = 0; i < count; ++i) to.take(first + i, hits[i], is_exhausted[i] != 0);
+  }
 }
 
 void World::closest_hits(std::span<const WorldRay> rays, std::span<WorldHit> hits,

@@ -2,8 +2,12 @@
 // Casts at half-spaces and meshes. A world has few of them; they come before shapes, as their hits
 // limit the rays.
 #include <algorithm>
+#include <bit>
+#include <numeric>
+#include <utility>
 
-#include "core/bvh/traverse.h"
+#include "core/bvh/group_walk.h"
+#include "core/bvh/stream.h"
 #include "core/world/posed_mesh_rays.h"
 #include "core/world/world.h"
 
@@ -13,63 +17,108 @@ namespace {
 /// Least number of rays to trace together; fewer are faster one by one.
 constexpr std::size_t least_together = 4;
 
-/// Largest number of meshes for tracing rays together: with more, a ray traced alone skips the
-/// meshes behind its first hit.
-constexpr std::size_t most_meshes = 2;
+/// Largest number of meshes, per ray, for tracing rays together: with more, most meshes are met by
+/// single rays.
+constexpr std::size_t most_meshes_per_ray = 4;
 
 /// True if rays are traced at meshes together.
 bool go_together(std::size_t rays, std::size_t meshes) {
-  return rays >= least_together && meshes > 0 && meshes <= most_meshes;
+  return rays >= least_together && meshes > 0 && meshes <= most_meshes_per_ray * rays;
 }
 
-/// A ray and a mesh whose box it hits.
-struct RayAtMesh {
-  std::uint32_t mesh, ray;
-};
-
-/// Meshes whose boxes rays hit, in rounds: the next mesh of each ray, sorted by mesh.
+/// Rounds in which rays are cast at meshes: in each round, each ray is cast at the next mesh whose
+/// box it meets, near boxes first, and the rays at the same mesh are cast together.
 class Rounds {
  public:
-  Rounds(const Bvh& boxes, std::size_t meshes, const RaySpan& rays, QueryCounts& counts)
-      : begins_(rays.size() + 1), next_(rays.size()) {
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      begins_[i] = next_[i] = meshes_.size();
-      if (meshes == 1) {  // the traversal of a single mesh tests its box first
-        meshes_.push_back(0);
-        continue;
-      }
-      counts.nodes += traverse(boxes, SlabRay(rays.ray(i)), [&](std::uint32_t mesh) {
+  /// The hierarchy contains the boxes, which are those of the meshes. Limits of `slabs` may be
+  /// lowered between rounds.
+  Rounds(const Bvh& bvh, std::span<const Bounds<float>> boxes, std::span<const SlabRay> slabs,
+         QueryCounts& counts)
+      : boxes_(boxes), slabs_(slabs), next_(slabs.size()), ends_(slabs.size()) {
+    for (std::size_t i = 0; i < slabs.size(); ++i) {
+      next_[i] = static_cast<std::uint32_t>(meshes_.size());
+      counts.nodes += traverse(bvh, slabs_[i], [&](std::uint32_t mesh) {
         meshes_.push_back(mesh);
         return false;
       });
+      ends_[i] = static_cast<std::uint32_t>(meshes_.size());
     }
-    begins_.back() = meshes_.size();
+    of_mesh_.resize(boxes.size());
   }
 
-  /// Calls visit(mesh, rays) for each mesh in the next round, with the open rays. Returns false if
-  /// the round is empty.
+  /// Calls visit(mesh, rays) for each mesh of the next round. A ray takes part while is_open(ray).
+  /// Returns false if no ray is left.
   template <class IsOpen, class Visit>
   bool next(const IsOpen& is_open, const Visit& visit) {
-    pairs_.clear();
-    for (std::uint32_t i = 0; i < next_.size(); ++i)
-      if (next_[i] < begins_[i + 1] && is_open(i)) pairs_.push_back({meshes_[next_[i]++], i});
-    if (!std::ranges::is_sorted(pairs_, {}, &RayAtMesh::mesh))
-      std::ranges::stable_sort(pairs_, {}, &RayAtMesh::mesh);
-    for (std::size_t from = 0, to; from < pairs_.size(); from = to) {
-      to = from;
-      rays_.clear();
-      for (; to < pairs_.size() && pairs_[to].mesh == pairs_[from].mesh; ++to)
-        rays_.push_back(pairs_[to].ray);
-      visit(pairs_[from].mesh, std::span<const std::uint32_t>(rays_));
+    // Sorts by mesh, and leaves the rays at one mesh in order.
+    met_.clear();
+    std::ranges::fill(of_mesh_, 0u);
+    for (std::uint32_t i = 0; i < next_.size(); ++i) {
+      const std::uint32_t mesh = next_mesh(i, is_open);
+      if (mesh == none) continue;
+      met_.push_back({mesh, i});
+      ++of_mesh_[mesh];
     }
-    return !pairs_.empty();
+    std::uint32_t begin = 0;
+    for (std::uint32_t& of : of_mesh_) begin += std::exchange(of, begin);
+    rays_.resize(met_.size());
+    for (const RayAtMesh& one : met_) rays_[of_mesh_[one.mesh]++] = one.ray;
+    begin = 0;
+    for (std::uint32_t mesh = 0; mesh < of_mesh_.size(); ++mesh) {
+      const std::uint32_t end = of_mesh_[mesh];
+      if (end > begin) visit(mesh, std::span(rays_).subspan(begin, end - begin));
+      begin = end;
+    }
+    return !met_.empty();
   }
 
  private:
-  std::vector<std::uint32_t> meshes_, rays_;
-  std::vector<std::size_t> begins_, next_;
-  std::vector<RayAtMesh> pairs_;
+  static constexpr std::uint32_t none = ~std::uint32_t{0};
+  struct RayAtMesh {
+    std::uint32_t mesh, ray;
+  };
+
+  template <class IsOpen>
+  std::uint32_t next_mesh(std::uint32_t ray, const IsOpen& is_open) {
+    if (!is_open(ray)) return none;
+    while (next_[ray] < ends_[ray]) {
+      const std::uint32_t mesh = meshes_[next_[ray]++];
+      if (is_reached(boxes_[mesh], slabs_[ray].numbers)) return mesh;
+    }
+    return none;
+  }
+
+  /// The slab test of a traversal, for one box.
+  static bool is_reached(const Bounds<float>& box, const SlabNumbers& ray) {
+    float enter = 0, leave = ray.t_max;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float corners[2] = {box.lower[axis], box.upper[axis]};
+      const float in = (corners[ray.near[axis]] - ray.origin_near[axis]) * ray.inverse_near[axis],
+                  out = (corners[1 - ray.near[axis]] - ray.origin_far[axis]) *
+                        ray.inverse_far[axis];
+      enter = in > enter ? in : enter;  // NaN does not count
+      leave = out < leave ? out : leave;
+    }
+    return enter <= leave * slab_padding + slab_tiny;
+  }
+
+  std::span<const Bounds<float>> boxes_;
+  std::span<const SlabRay> slabs_;
+  std::vector<std::uint32_t> next_, ends_;  ///< by ray: its meshes in meshes_ that remain
+  std::vector<std::uint32_t> meshes_, of_mesh_, rays_;
+  std::vector<RayAtMesh> met_;
 };
+
+/// True if the first and the last of at least least_group rays have the same origin and similar
+/// directions.
+constexpr std::size_t least_group = 12;
+bool may_be_group(const RaySpan& rays) {
+  if (rays.size() < least_group) return false;
+  const Ray<double>&first = rays.ray(0), &last = rays.ray(rays.size() - 1);
+  if (first.origin != last.origin) return false;
+  const double size = first.direction.cwiseAbs().maxCoeff();
+  return (last.direction - first.direction).cwiseAbs().maxCoeff() <= 0.25 * size;
+}
 
 }  // namespace
 
@@ -160,38 +209,82 @@ void World::closest_shapeless(const RaySpan& rays, std::span<WorldHit> closest,
     is_exhausted[i] = counts.exhausted > before ? 1 : 0;
   }
   if (!are_together) return;
-  Rounds rounds(mesh_boxes_, instances_.meshes().size(), rays, counts);
-  std::vector<MeshQuery> queries;
-  std::vector<std::uint32_t> asked;
-  const auto visit = [&](std::uint32_t index, std::span<const std::uint32_t> numbers) {
+  RaysAtMesh at_mesh;
+  FirstTouchVector<SlabRay> slabs;
+  const auto give_up = [&](std::uint32_t i) {
+    ++counts.exhausted;
+    is_exhausted[i] = 1;
+  };
+  const auto cast_at = [&](std::uint32_t index, std::span<const std::uint32_t> numbers) {
     const PosedMesh& mesh = instances_.meshes()[index];
-    queries.clear();
-    asked.clear();
+    at_mesh.begin(mesh, numbers.size());
     for (const std::uint32_t i : numbers) {
       if (!instances_.is_shown_to(mesh.instance, rays.kinds(i))) continue;
       const Ray<double>& ray = rays.ray(i);
       const double most =
           closest[i].found() ? closest[i].cast.t() : std::numeric_limits<double>::infinity();
-      queries.push_back({instances_.seen_by(mesh.instance, ray, rays.time(i)), most,
-                         mesh.instance == rays.skip(i),
-                         instances_.loss_of_seen_by(mesh.instance, ray)});
-      asked.push_back(i);
+      if (!at_mesh.add(i, instances_.seen_by(mesh.instance, ray, rays.time(i)), most,
+                       mesh.instance == rays.skip(i),
+                       instances_.loss_of_seen_by(mesh.instance, ray)) &&
+          !ray.direction.isZero(0))
+        give_up(i);
     }
     PartCounts parts;
-    cast_rays(mesh, queries, parts, [&](std::size_t k, const MeshCast& answer) {
+    at_mesh.find_closest(parts);
+    at_mesh.each_closest([&](std::uint32_t i, const MeshCast& answer) {
       const auto& [cast, part] = answer;
-      const std::uint32_t i = asked[k];
-      if (cast.status == Status::exhausted) {
-        ++counts.exhausted;
-        is_exhausted[i] = 1;
-      }
-      if (cast.found() && closest[i].yields_to(mesh.instance, cast.t()))
-        closest[i] = {mesh.instance, instances_.turned(mesh.instance, cast, rays.time(i)), part};
+      if (cast.status == Status::exhausted) return give_up(i);
+      if (!closest[i].yields_to(mesh.instance, cast.t())) return;
+      closest[i] = {mesh.instance, instances_.turned(mesh.instance, cast, rays.time(i)), part};
+      if (!slabs.empty()) slabs[i].numbers.t_max = slabs[i].limit(cast.t());
     });
     counts.add_parts(parts);
   };
-  while (rounds.next([](std::uint32_t) { return true; }, visit)) {
+  const auto count = static_cast<std::uint32_t>(rays.size());
+  std::vector<std::uint32_t> numbers;
+  if (instances_.meshes().size() == 1) {  // its own traversal begins with its box
+    numbers.resize(count);
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    return cast_at(0, numbers);
   }
+  slabs.resize(count);
+  make_slabs_avx2(rays.data(), rays.stride(), count, slabs.data());
+  for (std::uint32_t i = 0; has_half_spaces && i < count; ++i)
+    if (closest[i].found()) slabs[i].numbers.t_max = slabs[i].limit(closest[i].cast.t());
+  std::uint32_t waiting = 0;  ///< rays from here on wait for rounds
+  const auto go_round_up_to = [&](std::uint32_t end) {
+    const std::uint32_t first = std::exchange(waiting, end);
+    if (first >= end) return;
+    Rounds rounds(mesh_boxes_, boxes_of_meshes_, std::span(slabs).subspan(first, end - first),
+                  counts);
+    const auto visit = [&](std::uint32_t mesh, std::span<const std::uint32_t> of_round) {
+      numbers.clear();
+      for (const std::uint32_t i : of_round) numbers.push_back(first + i);
+      cast_at(mesh, numbers);
+    };
+    while (rounds.next([](std::uint32_t) { return true; }, visit)) {
+    }
+  };
+  for (std::uint32_t first = 0; first < count; first += rays_of_group) {
+    const std::uint32_t end = std::min<std::uint32_t>(first + rays_of_group, count);
+    if (!may_be_group(rays.part(first, end - first))) continue;
+    auto visit = [&](std::uint32_t mesh, std::uint32_t of_group) {
+      numbers.clear();
+      for (; of_group != 0; of_group &= of_group - 1)
+        numbers.push_back(first + static_cast<std::uint32_t>(std::countr_zero(of_group)));
+      cast_at(mesh, numbers);
+    };
+    const auto plain = [](void* context, std::uint32_t mesh, std::uint32_t of_group) {
+      (*static_cast<decltype(visit)*>(context))(mesh, of_group);
+    };
+    const std::uint64_t nodes = walk_group_avx2(mesh_boxes_.nodes.data(), slabs.data() + first,
+                                                end - first, {plain, &visit});
+    if (nodes == 0) continue;
+    counts.nodes += nodes;
+    go_round_up_to(first);
+    waiting = end;
+  }
+  go_round_up_to(count);
 }
 
 void World::blocked_by_shapeless(const RaySpan& rays, std::span<std::uint8_t> met,
@@ -206,29 +299,30 @@ void World::blocked_by_shapeless(const RaySpan& rays, std::span<std::uint8_t> me
     met[i] = is_blocked ? 1 : 0;
   }
   if (!are_together) return;
-  Rounds rounds(mesh_boxes_, instances_.meshes().size(), rays, counts);
-  std::vector<MeshQuery> queries;
-  std::vector<std::uint8_t> are;
-  std::vector<std::uint32_t> asked;
-  const auto visit = [&](std::uint32_t index, std::span<const std::uint32_t> numbers) {
+  RaysAtMesh at_mesh;
+  const auto cast_at = [&](std::uint32_t index, std::span<const std::uint32_t> numbers) {
     const PosedMesh& mesh = instances_.meshes()[index];
-    queries.clear();
-    asked.clear();
+    at_mesh.begin(mesh, numbers.size());
     for (const std::uint32_t i : numbers) {
       if (!instances_.is_shown_to(mesh.instance, rays.kinds(i))) continue;
-      MeshQuery query;
-      query.ray = instances_.seen_by(mesh.instance, rays.ray(i), rays.time(i));
-      query.leaves = mesh.instance == rays.skip(i);
-      queries.push_back(query);
-      asked.push_back(i);
+      at_mesh.add(i, instances_.seen_by(mesh.instance, rays.ray(i), rays.time(i)),
+                  std::numeric_limits<double>::infinity(), mesh.instance == rays.skip(i), 0);
     }
-    are.resize(queries.size());
     PartCounts parts;
-    are_met(mesh, queries, are, parts);
+    at_mesh.find_any(met, parts);
     counts.add_parts(parts);
-    for (std::size_t k = 0; k < asked.size(); ++k) met[asked[k]] |= are[k];
   };
-  while (rounds.next([&](std::uint32_t i) { return met[i] == 0; }, visit)) {
+  const auto is_open = [&](std::uint32_t i) { return met[i] == 0; };
+  if (instances_.meshes().size() == 1) {
+    std::vector<std::uint32_t> numbers;
+    for (std::uint32_t i = 0; i < rays.size(); ++i)
+      if (is_open(i)) numbers.push_back(i);
+    return cast_at(0, numbers);
+  }
+  FirstTouchVector<SlabRay> slabs(rays.size());
+  make_slabs_avx2(rays.data(), rays.stride(), rays.size(), slabs.data());
+  Rounds rounds(mesh_boxes_, boxes_of_meshes_, slabs, counts);
+  while (rounds.next(is_open, cast_at)) {
   }
 }
 

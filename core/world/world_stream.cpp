@@ -35,11 +35,6 @@ void World::answer_stream(const RaySpan& rays, std::size_t first, HitReceiver& t
   QueryCounts own;
   std::vector<std::uint8_t> is_alone(rays.size());  ///< 1: the ray is traced alone
   if (instances_.have_shapeless()) closest_shapeless(rays, hits, is_alone, own);
-  if (bvh_.nodes.empty()) {
-    for (std::size_t i = 0; i < rays.size(); ++i) to.take(first + i, hits[i], is_alone[i] != 0);
-    counts += own;
-    return;
-  }
   RayLimits limits(rays);
   for (std::size_t i = 0; i < rays.size(); ++i)
     if (hits[i].found()) limits.lower(i, hits[i].cast.t());

@@ -19,7 +19,7 @@ namespace {
 /// Rays of a call that waits for others' support points: few, so that there is much to gather.
 constexpr std::size_t gathered_at_once = 32;
 
-/// Calls write(i, ray, hit) or write(i, ray, block, k) for each ray.
+/// Calls write(i, ray, hit, exhausted) or write(i, ray, block, k) for each ray.
 template <class Write>
 class Writer : public HitReceiver {
  public:
@@ -28,7 +28,7 @@ class Writer : public HitReceiver {
 
   void take(std::size_t ray, const WorldHit& hit, bool exhausted) override {
     const Ray<double> of = rays_[first_ + ray];
-    write_(first_ + ray, of, plain_hit(of, hit, exhausted));
+    write_(first_ + ray, of, hit, exhausted);
   }
   void take(std::size_t first, std::uint64_t which, const BlockHits& hits) override {
     for (; which != 0; which &= which - 1) {
@@ -130,7 +130,9 @@ int minkray_scene_cast(minkray_scene scene, const minkray_ray* rays, size_t coun
     }
     struct {
       minkray_hit* hits;
-      void operator()(size_t i, const Ray<double>&, const minkray_hit& hit) const { hits[i] = hit; }
+      void operator()(size_t i, const Ray<double>& ray, const WorldHit& hit, bool exhausted) const {
+        plain_hit(ray, hit, exhausted, hits[i]);
+      }
       void operator()(size_t i, const Ray<double>& ray, const BlockHits& block, size_t k) const {
         plain_hit(ray, block, k, hits[i]);
       }
@@ -148,8 +150,8 @@ int minkray_scene_cast_arrays(minkray_scene scene, const minkray_ray_arrays* ray
       wrong_use("hits.size: must be sizeof(minkray_hit_arrays)");
     struct {
       const minkray_hit_arrays& hits;
-      void operator()(size_t i, const Ray<double>& ray, const minkray_hit& hit) const {
-        store(hits, i, ray, hit);
+      void operator()(size_t i, const Ray<double>& ray, const WorldHit& hit, bool exhausted) const {
+        store(hits, i, ray, plain_hit(ray, hit, exhausted));
       }
       void operator()(size_t i, const Ray<double>& ray, const BlockHits& block, size_t k) const {
         minkray_hit hit;
