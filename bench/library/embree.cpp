@@ -290,12 +290,12 @@ double EmbreeScene::seconds_to_build(const Mesh& mesh) {
   return clock.processor();
 }
 
-EmbreeScene EmbreeScene::triangles(const Mesh& mesh, Edges edges) {
+EmbreeScene EmbreeScene::triangles(const Mesh& mesh, Edges edges, std::size_t objects) {
   EmbreeScene made;
   if (edges == Edges::robust) rtcSetSceneFlags(made.scene_, RTC_SCENE_FLAG_ROBUST);
   add_mesh(made.device_, made.scene_, mesh);
   commit(made.scene_);
-  made.numbers_.primitives_an_object = static_cast<unsigned>(mesh.triangles.size());
+  made.numbers_.primitives_an_object = static_cast<unsigned>(mesh.triangles.size() / objects);
   return made;
 }
 

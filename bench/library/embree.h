@@ -20,9 +20,10 @@ class EmbreeScene {
   /// All triangles of all objects in one geometry: faster than instances where they are few, and
   /// larger. The subject has one body.
   static EmbreeScene flat(const Subject& subject, const Mesh& mesh);
-  /// The triangles of one mesh, where they are.
+  /// The triangles of one mesh, where they are; each of the objects has equally many of them.
   enum class Edges { fast, robust };
-  static EmbreeScene triangles(const Mesh& mesh, Edges edges = Edges::fast);
+  static EmbreeScene triangles(const Mesh& mesh, Edges edges = Edges::fast,
+                               std::size_t objects = 1);
   /// Processor time of a build of these at Embree's default quality.
   static double seconds_to_build(const Mesh& mesh);
 

@@ -85,69 +85,137 @@ std::vector<mk::Ray> scattered_from(const std::vector<mk::Ray>& rays,
   return scattered;
 }
 
+/// What is cast at: bodies of their own for Minkray, one mesh of all triangles for Embree.
+struct MeshScene {
+  std::string name;
+  mk::Scene ours;
+  Mesh theirs;
+  std::size_t objects = 1;
+};
+
+/// As many tori of 14,000 triangles as a robot has parts, along six chains from the middle.
+MeshScene robot_of_meshes(int parts) {
+  MeshScene scene;
+  Random random(3);
+  Vec at{0, 0, 0}, towards{0, 0, 0};
+  for (int part = 0; part < parts; ++part) {
+    constexpr int chains = 6;
+    constexpr double size = 0.18, step = 0.24;
+    if (part % ((parts + chains - 1) / chains) == 0) {
+      at = {0, 0, 0};
+      towards = random.direction();
+    }
+    towards = normalized(towards + 0.5 * random.direction());
+    at = at + step * towards;
+    mk::Pose pose = mk::pose(at, random.rotation());
+    for (auto& row : pose.rows)
+      for (int k = 0; k < 3; ++k) row[k] *= size;
+    const Mesh mesh = torus_with_slivers(14'000);
+    scene.ours.add(ours_of(mesh), pose);
+    const auto first = static_cast<std::uint32_t>(scene.theirs.vertices.size());
+    for (const Vec& v : mesh.vertices) {
+      double placed[3];
+      for (int i = 0; i < 3; ++i)
+        placed[i] =
+            pose.rows[i][0] * v.x + pose.rows[i][1] * v.y + pose.rows[i][2] * v.z + pose.rows[i][3];
+      scene.theirs.vertices.emplace_back(placed[0], placed[1], placed[2]);
+    }
+    for (const auto& t : mesh.triangles)
+      scene.theirs.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  scene.ours.commit();
+  scene.objects = static_cast<std::size_t>(parts);
+  scene.name = "robot of " + std::to_string(parts) + " meshes, " +
+               with_commas(scene.theirs.triangles.size());
+  return scene;
+}
+
+/// Hills over a square of 4 by 4.
+MeshScene terrain(std::uint32_t points) {
+  constexpr double size = 4;
+  MeshScene scene;
+  std::vector<double> heights;
+  for (std::uint32_t r = 0; r < points; ++r)
+    for (std::uint32_t c = 0; c < points; ++c) {
+      const double x = size * (c / (points - 1.0) - 0.5), y = size * (r / (points - 1.0) - 0.5);
+      const double height = 0.2 * std::sin(3 * x) * std::cos(2.3 * y) +
+                            0.05 * std::sin(11 * x + 3 * y) + 0.01 * std::sin(47 * x - 31 * y);
+      heights.push_back(static_cast<double>(static_cast<float>(height)));
+      scene.theirs.vertices.emplace_back(x, y, heights.back());
+      if (r + 1 == points || c + 1 == points) continue;
+      const std::uint32_t corner = r * points + c;
+      scene.theirs.triangles.push_back({corner, corner + 1, corner + points + 1});
+      scene.theirs.triangles.push_back({corner, corner + points + 1, corner + points});
+    }
+  scene.ours.add(mk::height_field(heights, points, points, size, size));
+  scene.ours.commit();
+  scene.name = "terrain of " + std::to_string(points) + " x " + std::to_string(points);
+  return scene;
+}
+
 std::string name_of_mesh(const Mesh& mesh) {
   return "mesh of " + with_commas(mesh.triangles.size());
 }
 
 class MeshArena {
  public:
-  MeshArena(Table& table, const Options& options, std::size_t triangles)
+  MeshArena(Table& table, const Options& options, MeshScene scene)
       : table_(table),
         options_(options),
-        mesh_(torus_with_slivers(triangles)),
-        peer_(EmbreeScene::triangles(mesh_, EmbreeScene::Edges::robust)) {
-    build();
-  }
+        scene_(std::move(scene)),
+        peer_(EmbreeScene::triangles(scene_.theirs, EmbreeScene::Edges::robust, scene_.objects)) {}
 
   void run() {
     const std::vector<mk::Ray> camera = camera_at({2.4, 1.7, 1.9}, options_.side);
     std::vector<mk::Hit> hits(camera.size());
-    ours_.cast(camera, hits, {.threads = 1});
+    scene_.ours.cast(camera, hits, {.threads = 1});
     rays("camera", camera, true);
     rays("scattered", scattered_from(camera, hits), false);
   }
 
  private:
-  void build() {
-    double best = INFINITY, best_peer = INFINITY;
-    for (int round = 0; round < options_.rounds; ++round) {
-      const Clock clock;
-      mk::Scene scene;
-      scene.add(ours_of(mesh_));
-      scene.commit();
-      best = std::min(best, clock.processor());
-      best_peer = std::min(best_peer, EmbreeScene::seconds_to_build(mesh_));
-      ours_ = std::move(scene);
-    }
-    char text[2][40];
-    std::snprintf(text[0], sizeof text[0], "%.1f ms", 1e3 * best);
-    std::snprintf(text[1], sizeof text[1], "Embree's default, %.1f ms", 1e3 * best_peer);
-    table_.add(
-        Figure{name_of_mesh(mesh_), "build", text[0], text[1], best_peer / best, goal_build});
-  }
-
   void rays(const std::string& name, const std::vector<mk::Ray>& rays, bool coherent) {
     Casters span, single, peers, peer_single;
-    span.push_back(minkray_span(ours_, rays, Question::first_hit));
-    single.push_back(minkray_single(ours_, rays));
+    span.push_back(minkray_span(scene_.ours, rays, Question::first_hit));
+    single.push_back(minkray_single(scene_.ours, rays));
     peer_.add_casters(peers, rays, Question::first_hit, coherent);
     peer_single.push_back(peer_.single(rays));
     race({&span, &peers, &single, &peer_single}, options_.rounds);
     // A ray next to an edge may meet either triangle, or the surface behind the silhouette.
     const Trust trust{1e-4, 2e-3};
-    const double goal = mesh_.triangles.size() > 20'000 ? goal_many : goal_few;
-    table_.add(Duel{name_of_mesh(mesh_), name + ", " + with_commas(rays.size()), *span[0],
-                    fastest(peers), "Embree robust, ", rays.size(), goal, trust});
-    table_.add(Duel{name_of_mesh(mesh_), name + ", one by one", *single[0], *peer_single[0],
+    const double goal = scene_.theirs.triangles.size() > 20'000 ? goal_many : goal_few;
+    table_.add(Duel{scene_.name, name + ", " + with_commas(rays.size()), *span[0], fastest(peers),
+                    "Embree robust, ", rays.size(), goal, trust});
+    table_.add(Duel{scene_.name, name + ", one by one", *single[0], *peer_single[0],
                     "Embree robust, ", rays.size(), goal_single, trust});
   }
 
   Table& table_;
   const Options& options_;
-  Mesh mesh_;
-  mk::Scene ours_;
+  MeshScene scene_;
   EmbreeScene peer_;
 };
+
+void run_torus(Table& table, const Options& options, std::size_t triangles) {
+  MeshScene scene;
+  scene.theirs = torus_with_slivers(triangles);
+  scene.name = name_of_mesh(scene.theirs);
+  double best = INFINITY, best_peer = INFINITY;
+  for (int round = 0; round < options.rounds; ++round) {
+    const Clock clock;
+    mk::Scene ours;
+    ours.add(ours_of(scene.theirs));
+    ours.commit();
+    best = std::min(best, clock.processor());
+    best_peer = std::min(best_peer, EmbreeScene::seconds_to_build(scene.theirs));
+    scene.ours = std::move(ours);
+  }
+  char text[2][40];
+  std::snprintf(text[0], sizeof text[0], "%.1f ms", 1e3 * best);
+  std::snprintf(text[1], sizeof text[1], "Embree's default, %.1f ms", 1e3 * best_peer);
+  table.add(Figure{scene.name, "build", text[0], text[1], best_peer / best, goal_build});
+  MeshArena(table, options, std::move(scene)).run();
+}
 
 // ---- distances ----
 
@@ -258,9 +326,14 @@ std::vector<Section> mesh_sections() {
   std::vector<Section> sections;
   for (const std::size_t count : {10'000, 100'000, 1'000'000})
     sections.push_back(
-        {"mesh of " + with_commas(count), [count](Table& table, const Options& options) {
-           MeshArena(table, options, count).run();
-         }});
+        {"mesh of " + with_commas(count),
+         [count](Table& table, const Options& options) { run_torus(table, options, count); }});
+  sections.push_back({"robot of 50 meshes", [](Table& table, const Options& options) {
+                        MeshArena(table, options, robot_of_meshes(50)).run();
+                      }});
+  sections.push_back({"terrain", [](Table& table, const Options& options) {
+                        MeshArena(table, options, terrain(1024)).run();
+                      }});
   for (const std::size_t count : {1'000, 10'000, 100'000})
     sections.push_back(
         {"mesh of " + with_commas(count) + ", distances",

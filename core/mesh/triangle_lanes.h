@@ -107,9 +107,11 @@ struct CornerPlaces {
   PartHit hit;
   hit.error = lesser(range, own);
   hit.t = t < first ? first : last < t ? last : t;
-  // True also if a number is NaN.
-  if (!(whole_at_least > 0 && std::abs(beyond_a) < std::numeric_limits<double>::infinity() &&
-        hit.t > hit.error)) [[unlikely]]
+  // Both are false if a number is NaN.
+  const bool is_ordinary =
+      whole_at_least > 0 && std::abs(beyond_a) < std::numeric_limits<double>::infinity();
+  if (is_ordinary && hit.t < -hit.error) return {};
+  if (!(is_ordinary && hit.t > hit.error)) [[unlikely]]
     return cast_at_part(*view.mesh, triangle, *cast.ray);
   hit.part = triangle;
   hit.is_back = above == 7;

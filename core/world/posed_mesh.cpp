@@ -43,10 +43,20 @@ double in_world(const MapLoss& loss, double t) {
   return loss.exponent == 0 ? t : std::ldexp(t, loss.exponent);
 }
 
-/// Maps the ray to the mesh's frame. Returns false if its numbers are too large, or if its
-/// direction is zero.
-bool map_ray(const PosedMesh& posed, const Ray<double>& ray, double most, Ray<double>& near,
-             MapLoss& loss) {
+void map_origin(const PosedMesh& posed, const Vec3<double>& origin, Ray<double>& near,
+                MapLoss& loss) {
+  const TwoFoldVec3<double> from = exact_difference(origin, posed.pose.translation);
+  if (posed.is_turned) {
+    near.origin = posed.to_mesh * from.high + posed.to_mesh * from.low;
+    loss.origin = map_rounding * (posed.to_mesh.cwiseAbs() * from.high.cwiseAbs()).norm();
+  } else {
+    near.origin = from.rounded();
+    loss.origin = from.low.isZero(0) ? 0 : from.low.norm();
+  }
+}
+
+void map_direction(const PosedMesh& posed, const Ray<double>& ray, double most, Ray<double>& near,
+                   MapLoss& loss) {
   const double size = ray.direction.cwiseAbs().maxCoeff();
   Vec3<double> direction = ray.direction;
   loss.exponent = 0;
@@ -55,22 +65,20 @@ bool map_ray(const PosedMesh& posed, const Ray<double>& ray, double most, Ray<do
     loss.exponent = -loss.exponent;
     for (double& x : direction) x = std::ldexp(x, loss.exponent);
   }
-  const TwoFoldVec3<double> from = exact_difference(ray.origin, posed.pose.translation);
+  near.direction = direction;
+  loss.direction = 0;
   if (posed.is_turned) {
-    near.origin = posed.to_mesh * from.high + posed.to_mesh * from.low;
     near.direction = posed.to_mesh * direction;
-    const Mat3<double> sizes = posed.to_mesh.cwiseAbs();
-    loss.origin = map_rounding * (sizes * from.high.cwiseAbs()).norm();
-    loss.direction = map_rounding * (sizes * direction.cwiseAbs()).norm();
-  } else {
-    near.origin = from.rounded();
-    near.direction = direction;
-    loss.origin = from.low.isZero(0) ? 0 : from.low.norm();
-    loss.direction = 0;
+    loss.direction = map_rounding * (posed.to_mesh.cwiseAbs() * direction.cwiseAbs()).norm();
   }
   near.t_max = std::min(in_near(loss, ray.t_max), in_near(loss, most) * (1 + rounding_of_most));
-  return size > 0 && near.origin.cwiseAbs().maxCoeff() <= largest_number &&
-         near.direction.cwiseAbs().maxCoeff() <= largest_number;
+}
+
+/// False if numbers of the mapped ray are too large, or if its direction is zero.
+bool is_usable(const Ray<double>& near) {
+  const double size = near.direction.cwiseAbs().maxCoeff();
+  return size > 0 && size <= largest_number &&
+         near.origin.cwiseAbs().maxCoeff() <= largest_number;
 }
 
 double t_min_of(const PosedMesh& posed, const Ray<double>& near, bool leaves) {
@@ -84,7 +92,9 @@ NearRay near_ray(const PosedMesh& posed, const Ray<double>& ray, double loss = 0
                  double most = std::numeric_limits<double>::infinity()) {
   NearRay near;
   near.loss.before = loss;
-  near.is_number = map_ray(posed, ray, most, near.part.ray, near.loss);
+  map_origin(posed, ray.origin, near.part.ray, near.loss);
+  map_direction(posed, ray, most, near.part.ray, near.loss);
+  near.is_number = is_usable(near.part.ray);
   return near;
 }
 
@@ -186,7 +196,15 @@ bool RaysAtMesh::add(std::uint32_t number, const Ray<double>& ray, double most, 
   PartRay& part = rays_[count_];
   MapLoss& of_map = losses_[count_];
   of_map.before = loss;
-  if (!map_ray(*posed_, ray, most, part.ray, of_map)) [[unlikely]]
+  if (count_ > 0 && ray.origin == last_origin_) {
+    part.ray.origin = rays_[count_ - 1].ray.origin;
+    of_map.origin = losses_[count_ - 1].origin;
+  } else {
+    map_origin(*posed_, ray.origin, part.ray, of_map);
+    last_origin_ = ray.origin;
+  }
+  map_direction(*posed_, ray, most, part.ray, of_map);
+  if (!is_usable(part.ray)) [[unlikely]]
     return false;
   part.t_min = t_min_of(*posed_, part.ray, leaves);
   numbers_[count_++] = number;

@@ -46,6 +46,7 @@ class RaysAtMesh {
 
   const PosedMesh* posed_ = nullptr;
   std::size_t count_ = 0;
+  Vec3<double> last_origin_;  ///< of the last ray, in the world
   FirstTouchVector<PartRay> rays_;
   FirstTouchVector<MapLoss> losses_;
   FirstTouchVector<std::uint32_t> numbers_;

@@ -90,7 +90,9 @@ void World::closer_hit(const WorldRay& ray, SlabRay& slabs, WorldHit& closest,
 
 WorldHit World::closest_hit(const WorldRay& ray, QueryCounts& counts) const {
   WorldHit closest = WorldHit::miss();
-  if (!closer_candidate(ray, closest, counts)) {
+  if (bvh_.nodes.empty()) {
+    closer_shapeless(ray, closest, counts);
+  } else if (!closer_candidate(ray, closest, counts)) {
     SlabRay slabs(ray.ray);
     closer_hit(ray, slabs, closest, counts);
   }

@@ -4,6 +4,12 @@
 #include <memory>
 #include <thread>
 
+#if defined(__linux__)
+#include <linux/membarrier.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+#endif
+
 #include "renderer/library/handles/call.h"
 #include "renderer/library/handles/held_scene.h"
 
@@ -36,6 +42,30 @@ struct EndOfThread {
   return *own_uses;
 }
 
+#if defined(__linux__)
+bool membarrier(int command) {
+  return syscall(SYS_membarrier, command, 0, 0) == 0;
+}
+/// True if a thread can make all threads of this process execute a barrier. Uses then need none of
+/// their own, which would take most of the time of a use.
+const bool has_barrier_for_all = membarrier(MEMBARRIER_CMD_REGISTER_PRIVATE_EXPEDITED);
+#else
+constexpr bool has_barrier_for_all = false;
+#endif
+
+/// Orders this thread's stores before its loads, and the same for every thread that lists a use.
+void barrier_for_all() {
+#if defined(__linux__)
+  // A forked process may have to register again.
+  if (has_barrier_for_all &&
+      (membarrier(MEMBARRIER_CMD_PRIVATE_EXPEDITED) ||
+       (membarrier(MEMBARRIER_CMD_REGISTER_PRIVATE_EXPEDITED) &&
+        membarrier(MEMBARRIER_CMD_PRIVATE_EXPEDITED))))
+    return;
+#endif
+  std::atomic_thread_fence(std::memory_order_seq_cst);
+}
+
 ThreadUses& uses_of_this_thread() {
   return own_uses ? *own_uses : new_uses();
 }
@@ -46,7 +76,11 @@ SceneUse::SceneUse(minkray_scene scene) : scene_(&scene_of(scene)), uses_(uses_o
   if (uses_.count == ThreadUses::most)
     wrong_use("scene: must not be used in calls within calls more than " +
               std::to_string(ThreadUses::most) + " deep");
-  uses_.scenes[uses_.count++].store(scene_, std::memory_order_seq_cst);
+  uses_.scenes[uses_.count++].store(scene_, std::memory_order_relaxed);
+  if (has_barrier_for_all)
+    std::atomic_signal_fence(std::memory_order_seq_cst);
+  else
+    std::atomic_thread_fence(std::memory_order_seq_cst);
   // Released, and perhaps gone, since it was found.
   if (held_scenes().find(scene.id) == scene_) return;
   end();
@@ -75,7 +109,12 @@ SceneChange::~SceneChange() {
 }
 
 bool SceneChange::is_used_elsewhere() const {
-  for (const ThreadUses* uses = all_uses.load(); uses; uses = uses->next)
+  const ThreadUses* const first = all_uses.load(std::memory_order_seq_cst);
+  const bool is_first_alone = first == &uses_ && !first->next;
+  // A thread that is listed from now on sees that the scene is being changed.
+  if (is_first_alone && uses_.count == 1) return false;
+  barrier_for_all();
+  for (const ThreadUses* uses = first; uses; uses = uses->next)
     for (std::size_t i = 0; i < ThreadUses::most; ++i) {
       const bool is_this = uses == &uses_ && i + 1 == uses_.count;
       if (!is_this && uses->scenes[i].load(std::memory_order_seq_cst) == scene_) return true;
