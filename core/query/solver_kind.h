@@ -37,7 +37,7 @@ inline constexpr std::array solver_descriptions = {
     SolverDescription{SolverKind::paper_johnson, "paper-johnson",
                       "Algorithm 3 with Johnson's distance subalgorithm"},
     SolverDescription{SolverKind::paper_signed_volumes, "paper-signed-volumes",
-                      "Algorithm 3 with signed volumes"},
+                      "Algorithm 3 with the signed-volumes distance subalgorithm"},
 };
 
 }  // namespace minkray

@@ -80,7 +80,8 @@ void PreviewArguments::add_to(const Verb& verb) {
   std::vector<std::string> names{"auto"};
   for (const Way& way : ways) names.emplace_back(way.name);
   verb.add_flag("--preview{auto}", preview,
-                "Also show the picture in the terminal (auto: the best graphics that it supports)")
+                "Also show the picture in the terminal (auto: the best protocol that the "
+                "terminal supports)")
       .one_of(names);
 }
 

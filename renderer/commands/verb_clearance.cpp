@@ -160,7 +160,7 @@ void add_clearance(Parser& parser, ExitCode& exit_code) {
       .between(1e-9, 1.0)
       .show_default();
   verb.add_option("--at-least", options->at_least,
-                  "Exit with 1 unless the proven clearance is at least this")
+                  "Exit with 1 unless the proven clearance is at least this (scene units)")
       .takes("DISTANCE");
   verb.add_option("--steps", options->steps,
                   "CSV file to write: minimum clearance of each step from one row to the next")

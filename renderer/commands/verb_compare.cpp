@@ -23,12 +23,12 @@ void add_compare(Parser& parser, ExitCode& exit_code) {
                   "Rays per object; default: 100000 (fewer above 200 objects)")
       .between(1, 1 << 30);
   verb.add_option("--directions", options->directions,
-                  "Support directions for the first meshes inside and around\neach shape; default: "
-                  "500 (100 above 500 objects)")
+                  "Support directions per shape\nSupport points along them make the first meshes "
+                  "inside and around the shape\nDefault: 500 (100 above 500 objects)")
       .between(20, 1 << 20);
   verb.add_option("-o,--output", image.outputs,
-                  "Picture to write: the distance between the meshes inside\nand around the "
-                  "shapes; contradictions are marked")
+                  "Picture to write\nShows the distance between the meshes inside and around each "
+                  "shape; marks contradictions")
       .one_value_each()
       .writes_file();
   verb.add_option("-r,--resolution", image.resolution,

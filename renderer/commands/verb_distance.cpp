@@ -291,7 +291,7 @@ void add_distance(Parser& parser, ExitCode&) {
       .reads_file();
   add_tolerance(verb, options->tolerance);
   verb.add_option("--within", options->within,
-                  "Omit pairs that are proven to be further apart than this (>= 0)");
+                  "Omit pairs that are proven to be further apart than this (scene units, >= 0)");
   verb.add_flag("--only-obstacles", options->only_obstacles,
                 "Check obstacles only, not self-collision");
   options->allowed.add_options(verb);
@@ -299,7 +299,7 @@ void add_distance(Parser& parser, ExitCode&) {
   verb.add_option("-o,--output", options->output, "CSV file to write instead of printing the table")
       .writes_file();
   verb.add_option("--at-most", options->at_most,
-                  "Above this distance, return only a lower bound (for two shapes)");
+                  "Above this distance (scene units), return only a lower bound (for two shapes)");
   verb.add_flag("--only-sign", options->only_sign,
                 "Only decide whether the shapes overlap (for two shapes)");
   add_import_options(verb, options->import, false);

@@ -116,11 +116,12 @@ void add_field(Parser& parser, ExitCode&) {
       .takes("X,Y,Z")
       .show_default();
   verb.add_option("--extent", options->extent,
-                  "Width of the picture in scene units; default: shows all objects")
+                  "Width of the picture in scene units; default: wide enough for all objects")
       .between(0.0, 1e300);
-  verb.add_option("--probe", options->probe,
-                  "JSON file of a shape: draw its signed distance, with\nits origin at each point "
-                  "of the plane")
+  verb.add_option(
+          "--probe", options->probe,
+          "JSON file of a shape\nDraw the signed distance of this shape, moved to each point "
+          "of the plane, instead of the point's")
       .reads_file();
   verb.add_option("-r,--resolution", options->resolution, "Picture size in pixels")
       .takes("WxH")

@@ -46,7 +46,7 @@ void add_inspect(Parser& parser, ExitCode& exit_code) {
                   "Maximum page size (MB); 0: automatic (6, more for large pictures)")
       .between(0.0, 2000.0);
   verb.add_flag("--serve", options->serve,
-                "Serve the page at 127.0.0.1 until Ctrl-C; a served page can query any ray")
+                "Serve the page at 127.0.0.1 until Ctrl-C; a served page can replay every pixel")
       .excludes(output);
   verb.add_option("--port", options->port, "Port of --serve; 0: any free port")
       .between(0, 65535)

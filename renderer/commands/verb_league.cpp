@@ -28,7 +28,7 @@ void add_league(Parser& parser, ExitCode&) {
   const auto words = std::make_shared<LeagueWords>();
   verb.add_option("--cases", words->cases, "Files of cases (default: all of tests/cases)")
       .reads_file();
-  verb.add_option("--only", words->only, "Run only cases whose names contain this").takes("NAME");
+  verb.add_option("--only", words->only, "Run only cases whose names contain NAME").takes("NAME");
   verb.add_option("--solvers", words->solvers,
                   "Solvers to run, comma-separated (default: all available)")
       .takes("NAMES");
@@ -37,8 +37,7 @@ void add_league(Parser& parser, ExitCode&) {
                   "Add a solver: a command that works like `minkray cast -`")
       .takes("COMMAND")
       .one_value_each();
-  verb.add_option("--random", words->random,
-                  "Random rays per kind of ray and shape, in addition to the cases")
+  verb.add_option("--random", words->random, "Also cast N random rays per kind of ray and shape")
       .between(0, 100000)
       .show_default();
   verb.add_option("--seed", words->seed, "Random seed of --random").show_default();

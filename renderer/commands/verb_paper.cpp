@@ -85,8 +85,10 @@ void add_paper(Parser& parser, ExitCode&) {
   const auto options = std::make_shared<PaperVerbOptions>();
   std::vector<std::string> ids;
   for (const PaperClaim& claim : claims) ids.emplace_back(claim.id);
-  verb.add_option("--only", options->only, "Rerun only this experiment").one_of(ids);
-  verb.add_option("--out", options->out, "Folder to write plots to (SVG)").takes_folder();
+  verb.add_option("--only", options->only, "Rerun only this experiment (its letter in the report)")
+      .one_of(ids);
+  verb.add_option("--out", options->out, "Folder to write plots to (SVG); default: no plots")
+      .takes_folder();
   verb.add_option("--rays", options->claim.rays, "Random rays per measured value")
       .between(100, 100000000)
       .show_default();

@@ -168,9 +168,9 @@ void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
   std::string models;
   for (const LidarModel& model : lidar_models())
     models += (models.empty() ? "" : ", ") + std::string(model.name);
-  verb.add_option("--rays", options.rays,
-                  "File of rays: .npy array of shape (N, 6), origin and direction, or (N, 7), "
-                  "origin, direction and t_max")
+  verb.add_option(
+          "--rays", options.rays,
+          "File of rays: .npy array of N rows: origin (3), direction (3) and optionally t_max")
       .group(heading)
       .reads_file();
   verb.add_option("--pattern", options.pattern,
@@ -188,7 +188,9 @@ void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
                   "JSON file of a calibrated camera: fx, fy, cx, cy, width, height, distortion")
       .group(heading)
       .reads_file();
-  verb.add_option("--pose", options.pose, "Position and rotation (quaternion) of the sensor")
+  verb.add_option(
+          "--pose", options.pose,
+          "Position and rotation (quaternion) of the sensor; default: at the origin, unrotated")
       .group(heading)
       .takes("X,Y,Z[,QX,QY,QZ,QW]");
   verb.add_option("--on", options.mount, "Robot link or object that carries the sensor")
@@ -200,7 +202,8 @@ void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
       .reads_file();
   verb.add_option("--start", options.scan.start, "Time at which the sweep starts (s)")
       .group(heading)
-      .between(-1e9, 1e9);
+      .between(-1e9, 1e9)
+      .show_default();
   verb.add_option("--sweep", options.sweep, "Seconds per revolution of a lidar")
       .group(heading)
       .between(0.0, 1e9)
@@ -209,18 +212,20 @@ void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
 
 void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
   const std::string heading = "Measurement";
-  verb.add_option("--range", options.range, "Minimum and maximum range (scene units)")
+  verb.add_option("--range", options.range,
+                  "Minimum and maximum range (scene units; default: unlimited)")
       .group(heading)
       .takes("MIN,MAX");
-  verb.add_option(
-          "--noise", options.noise,
-          "Standard deviations of the range, of the angle (rad), and of the range per unit of "
-          "distance")
+  verb.add_option("--noise", options.noise,
+                  "Standard deviations of the range (scene units), of the angle (rad), and of the "
+                  "range per "
+                  "unit of distance; default: 0")
       .group(heading)
       .takes("RANGE[,ANGLE[,PER_LENGTH]]");
   verb.add_option("--dropout", options.scan.dropout, "Probability that a ray returns nothing")
       .group(heading)
-      .between(0.0, 1.0);
+      .between(0.0, 1.0)
+      .show_default();
   verb.add_option("--seed", options.seed, "Random seed of noise and dropout (0 to 2^64 - 1)")
       .group(heading)
       .takes("N")
@@ -238,7 +243,7 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .one_of(echo_orders)
       .show_default();
   verb.add_option("--divergence", options.scan.divergence,
-                  "Full angle of the beam (rad)\n"
+                  "Full angle of the beam (rad); 0: a single ray\n"
                   "Above 0, the echoes are the first hits of --beam-rays rays in the beam")
       .group(heading)
       .between(0.0, 1.0);

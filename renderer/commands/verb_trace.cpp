@@ -142,7 +142,8 @@ void add_trace(Parser& parser, ExitCode&) {
   options->files = &verb.files();
   add_scene_option(verb, options->scene);
   add_import_options(verb, options->import);
-  verb.add_option("--pixel", options->pixel, "Pixel x,y from the upper left corner")
+  verb.add_option("--pixel", options->pixel,
+                  "Column and row of the pixel, from the upper left corner, such as 100,80")
       .required()
       .values(2, ',');
   verb.add_option("-r,--resolution", options->resolution,

@@ -260,16 +260,18 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
       .one_value_each()
       .reads_file();
   verb.add_option("-o,--output", options->outputs,
-                  "Proof (.json), picture of the worst moment (.png) or page (.html); repeatable")
+                  "Proof (.json), picture of the worst moment (.png) or page that plays the motion "
+                  "(.html); repeatable")
       .one_value_each()
       .writes_file();
   verb.add_option("--scene", inputs.scenes,
-                  "Planning scene (YAML, JSON), scene file or SDF world; repeatable")
+                  "Obstacles: MoveIt planning scene (YAML, JSON), Minkray scene file or SDF world; "
+                  "repeatable")
       .one_value_each()
       .reads_file();
   inputs.allowed.add_options(verb);
   verb.add_option("--state", inputs.state,
-                  "SRDF state with the values of joints that are missing from the plan")
+                  "Named SRDF state that sets the joints missing from the plan")
       .takes("NAME");
   verb.add_option("--group", inputs.group,
                   "SRDF group whose joints are the columns of an .npy file")

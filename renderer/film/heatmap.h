@@ -30,7 +30,8 @@ inline constexpr std::array heat_channels = {
     HeatChannelDescription{HeatChannel::nodes, "nodes", "nodes visited per ray",
                            "visited BVH nodes (up to 8 boxes each)"},
     HeatChannelDescription{HeatChannel::path, "path", "last stage needed by any cast",
-                           "last stage that any cast needed: 0 filter, 1 model, 2 gjk, 3 finer"},
+                           "last stage that any cast needed: 0 closed form (filter), 1 osculating "
+                           "ellipsoids (model), 2 GJK, 3 GJK with more digits (finer)"},
     HeatChannelDescription{HeatChannel::status, "status", "status of the cast",
                            "hit, miss, inside, or exhausted if any cast did not converge"},
 };

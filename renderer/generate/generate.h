@@ -15,11 +15,11 @@ struct GeneratedKind {
 };
 
 inline constexpr GeneratedKind generated_kinds[] = {
-    {"rounded-boxes", "random rotated rounded boxes, some overlap"},
-    {"spheres", "random spheres"},
-    {"ellipsoids", "a packing of rotated ellipsoids without overlap"},
+    {"rounded-boxes", "rounded boxes at random poses; some overlap"},
+    {"spheres", "equal spheres at random positions"},
+    {"ellipsoids", "densely packed rotated ellipsoids that do not overlap"},
     {"hulls", "a grid of different convex hulls"},
-    {"capsules", "random fibres"},
+    {"capsules", "thin capsules at random poses"},
     {"tumbling", "bodies of many shapes that fly apart, animated for two seconds"},
 };
 

@@ -42,16 +42,17 @@ void RenderArguments::add_to(const Verb& verb) {
       .between(0, 1000)
       .show_default();
   verb.add_option("--bounces", bounces,
-                  "Diffuse bounces for --integrator ambient; 0: ambient occlusion")
+                  "Diffuse bounces for --integrator ambient; 0: only ambient occlusion")
       .between(0, 64)
       .show_default();
-  verb.add_option("--clamp", clamp,
-                  "Limit of indirect light for --integrator path: fewer fireflies, slightly "
-                  "darker picture; 0: off")
+  verb.add_option(
+          "--clamp", clamp,
+          "Maximum radiance that a path adds to a sample as indirect light (--integrator path); 0: "
+          "off\nFewer fireflies, but a slightly darker picture")
       .between(0.0, 1e30)
       .show_default();
   verb.add_option("--noise", noise,
-                  "Adaptive sampling: relative error at which sampling of a pixel stops; 0: off")
+                  "Adaptive sampling: stop sampling a pixel at this relative error; 0: off")
       .between(0.0, 1.0)
       .show_default();
   verb.add_flag("--denoise", denoise, "Denoise (best at few samples per pixel)");
@@ -83,11 +84,13 @@ void RenderArguments::add_to(const Verb& verb) {
                   "cryptomatte come from all samples\nChannels:" +
                       channels)
       .takes("NAMES");
-  verb.add_option("--tile", tile, "Render tile I of N, for minkray merge")
+  verb.add_option("--tile", tile, "Render only tile I (from 1) of N; minkray merge joins the tiles")
       .takes("I/N")
       .group(several_machines);
-  verb.add_option("--sample-share", sample_share,
-                  "Render share I of N of each pixel's samples, for minkray merge")
+  verb.add_option(
+          "--sample-share", sample_share,
+          "Render only share I (from 1) of N of each pixel's samples; minkray merge joins the "
+          "shares")
       .takes("I/N")
       .group(several_machines);
   verb.add_option("--tiles", tiles,
@@ -98,7 +101,7 @@ void RenderArguments::add_to(const Verb& verb) {
                   "Seconds between checkpoints (written next to the first output); 0: none")
       .between(0.0, 1e9)
       .show_default();
-  verb.add_flag("--resume", resume, "Resume from the checkpoint, if there is one");
+  verb.add_flag("--resume", resume, "Resume from the last checkpoint, if one exists");
   verb.add_flag("--progressive", progressive,
                 "Render in passes of 1, 2, 4 ... samples per pixel and show each pass");
   verb.add_option("--tev", tev,
@@ -109,8 +112,7 @@ void RenderArguments::add_to(const Verb& verb) {
                   "--resume skips the frames listed in NAME-####.png.frames")
       .takes("A..B");
   verb.add_option("--rate", rate, "Frames per second (fps)").between(1e-6, 1e6).show_default();
-  verb.add_option("--contact-sheet", contact_sheet,
-                  "Picture to write, with thumbnails of all --frames")
+  verb.add_option("--contact-sheet", contact_sheet, "Picture to write: thumbnails of all --frames")
       .writes_file();
   verb.add_flag("--stats", stats,
                 "Print statistics: rays, speed, work and memory; --stats=json prints JSON")
