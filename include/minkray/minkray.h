@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Minkray for C++: convex shapes, scenes of them, rays cast at them, proofs of the results,
-// distances and times of impact. Header-only over minkray_c.h, whose comments specify threads,
-// frames and units; docs/cpp.md has examples.
-// Every failure throws a minkray::Error, whose text names the error and its location.
+// Minkray for C++: convex shapes, scenes, ray casts with proofs, distances and times of impact.
+// Header-only over minkray_c.h, whose comments specify threads, frames and units; docs/cpp.md has
+// examples. Every failure throws a minkray::Error, whose text names the error and its location.
 #pragma once
 
 // Example:
@@ -66,7 +65,7 @@ class View {
   std::size_t size_ = 0;
 };
 
-/// A text that ends with 0: a literal or a std::string.
+/// A null-terminated text: a literal or a std::string.
 class Text {
  public:
   constexpr Text() = default;
@@ -85,7 +84,7 @@ class Text {
 /// An error of a call: what() names the function, the argument and what it must be.
 class Error : public std::exception {
  public:
-  /// Takes the text of this thread's last call that failed.
+  /// Takes the text of this thread's last failed call.
   explicit Error(int code) : Error(code, minkray_last_error()) {}
   Error(int code, const char* text) : code_(static_cast<minkray_code>(code)) {
     std::size_t i = 0;
@@ -117,7 +116,8 @@ inline const char* version() {
 
 // ---- poses ----
 
-/// x -> linear x + translation, as three rows of four numbers; by default the identity.
+/// The affine map x -> linear x + translation, as three rows of four numbers; by default the
+/// identity.
 struct Pose {
   double rows[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
 };
@@ -383,10 +383,10 @@ inline Shape read_shape(Text json, Text folder = {}) {
   return Shape(made);
 }
 
-/// A mesh: triangles with shared vertices, counter-clockwise as seen from outside. Rays meet the
+/// A mesh: triangles with shared vertices, counter-clockwise as seen from outside. Rays hit the
 /// mesh itself, not its hull. `triangles` is a contiguous range of vertex indices, or of any type
-/// that holds three std::uint32_t, such as std::array<std::uint32_t, 3>. Scenes and rays accept a
-/// mesh like a shape; it is not convex, so it cannot be an operand of other shapes.
+/// that contains three std::uint32_t, such as std::array<std::uint32_t, 3>. Scenes and rays accept
+/// a mesh like a shape; it is not convex, so it cannot be an operand of other shapes.
 template <class Triangles>
 Shape mesh(View<const Vec3> vertices, const Triangles& triangles) {
   using Item = std::remove_cvref_t<decltype(*triangles.data())>;
@@ -490,15 +490,15 @@ int answer_jets(const Function& function, std::size_t count, const double (*n)[3
 }  // namespace detail
 
 /// A custom shape: `support(const Vec3& n)` returns the furthest point along the unit vector n.
-/// Several threads call it at once. An exception ends the query with an Error that has its text; a
-/// result that no convex shape can have also ends the query with an Error.
+/// Several threads may call `support` at once. If `support` throws, or returns a point that no
+/// convex shape can have, the query fails with an Error, which has the exception's text.
 template <class Support>
 Shape custom(Support support) {
   return detail::custom_within(std::move(support), nullptr, nullptr);
 }
 /// Makes a shape from a function that computes many points per call: `support(View<const Vec3>
-/// directions, View<Vec3> points)`. With `gathered`, casts of many rays collect up to that many
-/// directions per call, which pays off if a call is expensive.
+/// directions, View<Vec3> points)`. Casts of many rays collect up to `gathered` directions per
+/// call, which pays off if a call is expensive.
 template <class Support>
 Shape custom_batched(Support support, std::size_t gathered = 0) {
   minkray_support given = {};
@@ -570,7 +570,7 @@ inline constexpr std::uint32_t no_object = MINKRAY_NO_OBJECT;
 struct Hit {
   double t = std::numeric_limits<double>::infinity();  ///< the point is origin + t direction
   double t_lo = t, t_hi = t;                           ///< proven bounds of t
-  double t_base = 0, t_offset = 0;                     ///< t = t_base + t_offset, with more digits
+  double t_base = 0, t_offset = 0;                     ///< t_base + t_offset: a more precise t
   Vec3 point, normal;
   std::uint32_t object = no_object;
   Status status = exhausted;
@@ -620,8 +620,8 @@ inline void check_sizes(const char* function, const char* argument, std::size_t 
 
 using Proof = minkray_proof;
 
-/// Writes at most rays.size() rays of a lidar: "spinning:32x1800", "VLP-16", or a file. Returns how
-/// many rays the lidar has.
+/// Writes at most rays.size() rays of a lidar: "spinning:32x1800", "VLP-16", or a file (see
+/// minkray_lidar_rays). Returns the number of rays that the lidar has.
 inline std::size_t lidar(Text pattern, const Pose& pose, View<Ray> rays = {}) {
   std::size_t needed = 0;
   detail::check(minkray_lidar_rays(pattern.c_str(), detail::plain(&pose),
@@ -630,7 +630,8 @@ inline std::size_t lidar(Text pattern, const Pose& pose, View<Ray> rays = {}) {
   return needed;
 }
 
-/// Writes the rays of a calibrated camera that is given as JSON text; otherwise as lidar().
+/// Writes at most rays.size() rays of a calibrated camera, given as JSON text (see
+/// minkray_camera_rays). Returns the number of rays that the camera has.
 inline std::size_t camera(Text camera, const Pose& pose, View<Ray> rays = {}) {
   std::size_t needed = 0;
   detail::check(minkray_camera_rays(camera.c_str(), detail::plain(&pose),
@@ -651,9 +652,9 @@ inline Hit cast(const Shape& shape, const Ray& ray, const Pose& pose = identity(
 
 /// Options for reading a file.
 struct FileOptions {
-  const Pose* pose = nullptr;  ///< of all contents
-  Text geometry = {};          ///< of robots: "visual", "collision" or "all"
-  Text keyframe = {};
+  const Pose* pose = nullptr;  ///< applied to all objects of the file
+  Text geometry = {};          ///< of robots: "visual" (default), "collision" or "all"
+  Text keyframe = {};          ///< of MJCF, by name or number
   View<const char* const> package_dirs = {};
   bool skip_missing_meshes = false;
   Text meshes = {};  ///< of robots: "exact" or "hull"; empty: exact, but hull for contact in MJCF
@@ -666,7 +667,7 @@ struct PictureOptions {
   std::uint32_t samples = 16;
   std::uint64_t seed = 0;
   Text integrator = {};
-  std::int32_t bounces = 0, max_depth = 0;  ///< 0: default, less than 0: none
+  std::int32_t bounces = 0, max_depth = 0;  ///< 0: default, negative: none
   bool denoise = false;
 };
 using Channel = minkray_channel;
@@ -887,8 +888,8 @@ class Scene {
     detail::check(
         minkray_scene_render(handle_, &plain, channels.data(), channels.size(), &plain_how));
   }
-  /// Clearance of a robot along a path of joint values, to itself and all other objects: one result
-  /// per pair of consecutive rows, and the least of all.
+  /// Clearance of a robot along a path of joint values, to itself and all other objects. Fills
+  /// `steps` with one result per pair of consecutive rows; returns the least of all.
   Clearance clearance(const Group& robot, View<const double> path, std::size_t rows,
                       View<Clearance> steps = {}) const {
     constexpr const char* function = "minkray::Scene::clearance";
@@ -906,9 +907,9 @@ class Scene {
   }
 
   /// Verifies a robot's motion along a path of joint values: free at all times, or a pair that
-  /// collides. `rates` (as many numbers as `path`) makes joints move as cubics; with
-  /// `accelerations` as well, as quintics. `proof` names a file for minkray-check. Rows are at
-  /// `times`, or at 0, 1, 2, ...; see minkray_scene_verify.
+  /// collides. Between rows joints move linearly; with `rates` (as many numbers as `path`) as
+  /// cubics; with `rates` and `accelerations` as quintics. `proof` names a file for minkray-check.
+  /// `times` has one time per row (default: 0, 1, 2, ...). See minkray_scene_verify.
   Verdict verify(const Group& robot, View<const double> path, std::size_t rows,
                  View<const double> rates = {}, double margin = 0,
                  View<const double> accelerations = {}, Text proof = {},
@@ -941,8 +942,8 @@ class Scene {
 
   // ---- pairs: see minkray/pairs.h ----
 
-  /// All pairs of objects not proven to be further apart than `within`. Sorted by their numbers;
-  /// skips pairs excluded by masks or `allow`, and links that a joint connects.
+  /// All pairs of objects not proven to be further apart than `within`, sorted by object numbers.
+  /// Skips pairs excluded by masks or `allow`, and links that a joint connects.
   ScenePairs distances(double within = 0) const;
   ScenePairs distances(const NearOptions& options) const;
   /// Computes exactly the given pairs, in their order, even if masks or `allow` exclude them.
@@ -961,7 +962,8 @@ class Scene {
                              double t_max) const;
   /// Contact points of two objects.
   Manifold manifold(std::uint32_t object_a, std::uint32_t object_b) const;
-  /// Sets which pairs are tested: those where each object's mask has a bit of the other's category.
+  /// Sets which pairs are tested: those where each object's mask shares a bit with the other
+  /// object's category.
   void set_masks(std::uint32_t object, std::uint32_t category, std::uint32_t mask);
   /// Sets if two objects may touch: allowed pairs are skipped.
   void allow(std::uint32_t object_a, std::uint32_t object_b, bool is_allowed = true);
@@ -998,7 +1000,7 @@ enum ImpactStatus : std::int32_t {
   impact = MINKRAY_IMPACT,
   no_impact = MINKRAY_NO_IMPACT,  ///< proven
   begins_inside = MINKRAY_BEGINS_INSIDE,
-  impact_undecided = MINKRAY_IMPACT_UNDECIDED  ///< no impact before t_lo; not known after it
+  impact_undecided = MINKRAY_IMPACT_UNDECIDED  ///< no impact before t_lo; unknown after t_lo
 };
 
 /// Distance of two shapes; see minkray_distance.

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: MIT
- * Minkray for C and for every language that can call C: convex shapes, scenes of them, rays cast at
- * them, proofs of the results, distances and times of impact. docs/c.md has examples.
+ * Minkray for C and for every language that can call C: convex shapes, scenes, ray casts with
+ * proofs, distances and times of impact. docs/c.md has examples.
  */
 #ifndef MINKRAY_MINKRAY_C_H
 #define MINKRAY_MINKRAY_C_H
 
 /* All functions that return an int return MINKRAY_OK or another minkray_code; minkray_last_error()
  * then names the error and its place. A failed call writes no results, unless its description
- * allows it.
+ * specifies partial results.
  *
  * Handles are numbers, never addresses: using a released or invalid handle is a reported error,
  * even if newer handles exist.
@@ -17,7 +17,7 @@
  * call (from any thread or a callback) uses this scene returns MINKRAY_WRONG_USE and changes
  * nothing. A call that uses a scene during a change also returns MINKRAY_WRONG_USE.
  *
- * All points, directions and poses are in the world's frame and unit of length, in double.
+ * All points, directions and poses are in world coordinates. Lengths have the scene's unit.
  */
 
 #include <stddef.h>
@@ -42,11 +42,11 @@ typedef enum minkray_code {
   MINKRAY_OK = 0,
   MINKRAY_WRONG_USE = 1,   /* an invalid argument, or a call at the wrong time */
   MINKRAY_BAD_INPUT = 2,   /* an invalid file or text */
-  MINKRAY_BAD_SUPPORT = 3, /* a support function of yours contradicts itself; results may be filled
-                            * in part */
+  MINKRAY_BAD_SUPPORT = 3, /* a custom support function returned inconsistent points; results may
+                            * be incomplete */
   MINKRAY_NO_MEMORY = 4,
-  MINKRAY_STOPPED = 5, /* stopped by your callback; results are filled in part */
-  MINKRAY_DEFECT = 6   /* an error of Minkray's own: please report it */
+  MINKRAY_STOPPED = 5, /* stopped by a callback; results are incomplete */
+  MINKRAY_DEFECT = 6   /* a bug in Minkray: please report it */
 } minkray_code;
 
 /* Version of the loaded library, such as "0.1.0". */
@@ -57,19 +57,19 @@ MINKRAY_API const char* minkray_last_error(void);
 
 /* ---- shapes ---------------------------------------------------------------------------------- */
 
-/* An immutable convex shape or mesh. {0} is no shape. */
+/* An immutable convex shape or mesh. {0} means no shape. */
 typedef struct minkray_shape {
   uint64_t id;
 } minkray_shape;
 
-/* x -> linear x + translation: three rows of four numbers, three of the linear part and one of the
- * translation. */
+/* The affine map x -> linear x + translation. Each row has three numbers of the linear part, then
+ * one of the translation. */
 typedef struct minkray_pose {
   double rows[3][4];
 } minkray_pose;
 
-/* One parameter of a shape: numbers (for points, three each; for a map, the 12 of a minkray_pose)
- * or shapes. */
+/* One parameter of a shape: numbers or shapes. A point has three numbers; a map has the 12 numbers
+ * of a minkray_pose. */
 typedef struct minkray_parameter {
   const char* name;
   const double* numbers;
@@ -87,24 +87,25 @@ MINKRAY_API int minkray_shape_make(const char* kind, const minkray_parameter* pa
  * be NULL for the working folder. */
 MINKRAY_API int minkray_shape_read(const char* json, const char* folder, minkray_shape* shape);
 
-/* A custom shape: points[i] is its point furthest along directions[i], which has length 1. Equal
- * directions must get equal points. Several threads call it at once. Queries of the shape
- * itself, or of shapes made of it, are not allowed inside the function and return
- * MINKRAY_WRONG_USE. Returns 0, or nonzero if it failed: see minkray_support_failed. */
+/* Support function of a custom shape. Sets points[i] to the shape's furthest point along
+ * directions[i], which has length 1. Equal directions must get equal points. Several threads may
+ * call the function at once. The function must not query the shape itself, or shapes made of it:
+ * such queries return MINKRAY_WRONG_USE. Returns 0, or nonzero on failure; see
+ * minkray_support_failed. */
 typedef int (*minkray_support_function)(void* user, size_t count, const double (*directions)[3],
                                         double (*points)[3]);
 
 typedef struct minkray_support {
   minkray_support_function function;
   void* user;
-  void (*release)(void* user); /* called when the last shape made of it is gone; may be NULL */
-  const double* lower;         /* corners of a box that holds the shape; both may be NULL */
+  void (*release)(void* user); /* called once no shape uses `user`; may be NULL */
+  const double* lower;         /* corners of a box that contains the shape; or both NULL */
   const double* upper;
 } minkray_support;
 
-/* A mesh: triangles with shared vertices, three indices of vertices each, counter-clockwise as seen
- * from outside. Rays hit the mesh itself, not its hull, from both sides. A ray at an edge or vertex
- * of a closed mesh hits one of the triangles there. Scenes accept a mesh like a shape; functions
+/* A mesh of triangles: three vertex indices each, counter-clockwise as seen from outside. Rays hit
+ * the mesh itself, not its hull, from either side. A ray at an edge or vertex of a closed mesh hits
+ * one of the triangles there. Scenes accept a mesh like a shape; functions
  * that need a convex shape, such as minkray_shape_make, reject a mesh. Both arrays are copied. */
 MINKRAY_API int minkray_shape_mesh(const double (*vertices)[3], size_t vertex_count,
                                    const uint32_t (*triangles)[3], size_t triangle_count,
@@ -112,9 +113,9 @@ MINKRAY_API int minkray_shape_mesh(const double (*vertices)[3], size_t vertex_co
 
 /* A terrain as a mesh: heights over a grid centred at the origin, `size_x` by `size_y` from border
  * to border. Each of the `rows` rows runs along x and has `columns` heights; the row with the least
- * y is first. Each cell is cut along the diagonal from its corner of least x and y; the triangles
- * of the cell in row r and column c are 2 (r (columns - 1) + c) and the next one. With a `bottom`,
- * walls down to that z close the mesh to a solid; NULL: open. The heights are copied. */
+ * y is first. Each cell is cut along the diagonal from its corner of least x and y. The cell in
+ * row r and column c has two triangles: number 2 (r (columns - 1) + c) and the next one. A `bottom`
+ * closes the mesh to a solid, by walls down to that z; NULL: open. The heights are copied. */
 MINKRAY_API int minkray_shape_height_field(const double* heights, size_t rows, size_t columns,
                                            double size_x, double size_y, const double* bottom,
                                            minkray_shape* shape);
@@ -122,7 +123,7 @@ MINKRAY_API int minkray_shape_height_field(const double* heights, size_t rows, s
 /* Properties of a mesh. Vertices at the same position count as one, except in `vertices`. */
 typedef struct minkray_mesh_info {
   size_t vertices, triangles;
-  size_t open_edges;   /* edges not used equally often in both directions; 0: closed */
+  size_t open_edges;   /* edges that triangles use more often in one direction; 0: closed */
   size_t without_area; /* triangles of zero area, which no ray hits */
   size_t repeated;     /* triangles with the same vertices as another */
 } minkray_mesh_info;
@@ -133,15 +134,15 @@ MINKRAY_API int minkray_shape_mesh_info(minkray_shape shape, minkray_mesh_info* 
  * outside of support functions. */
 MINKRAY_API void minkray_support_failed(const char* reason);
 
-/* Makes a shape from a support function. The function is first called for some hundred directions;
- * if no convex shape has these points, returns MINKRAY_BAD_SUPPORT. Later results are checked as
- * well: a query that gets inconsistent ones returns MINKRAY_BAD_SUPPORT. If this call fails,
- * `release` is called. */
+/* Makes a shape from a support function. Calls the function for a few hundred directions, and
+ * returns MINKRAY_BAD_SUPPORT if no convex shape has the returned points. Later points are checked
+ * as well: a query that gets inconsistent points returns MINKRAY_BAD_SUPPORT. If
+ * minkray_shape_custom fails, it calls `release`. */
 MINKRAY_API int minkray_shape_custom(const minkray_support* support, minkray_shape* shape);
 
 /* Makes a shape from a function that is expensive per call and cheap per direction, such as a
  * function in an interpreter. Casts of many rays collect up to `gathered` directions per call;
- * other queries pass at most 16. The results are the same as without `gathered`. */
+ * other queries pass at most 16. `gathered` does not change results. */
 MINKRAY_API int minkray_shape_custom_gathered(const minkray_support* support, size_t gathered,
                                               minkray_shape* shape);
 
@@ -152,8 +153,8 @@ typedef int (*minkray_jet_function)(void* user, size_t count, const double (*dir
                                     double (*points)[3], double (*derivatives)[9]);
 
 /* Makes a smooth shape with known curvature, which saves most of the support points of a cast.
- * `jets` gets the same `user`, and must return the same points. Derivatives only guide casts and
- * are not trusted: wrong ones only cost time. */
+ * `jets` gets the `user` of `support`, and must return the same points as its function. Wrong
+ * derivatives only cost time: casts do not rely on them. */
 MINKRAY_API int minkray_shape_custom_with_jets(const minkray_support* support,
                                                minkray_jet_function jets, minkray_shape* shape);
 
@@ -161,9 +162,9 @@ MINKRAY_API int minkray_shape_custom_with_jets(const minkray_support* support,
 MINKRAY_API int minkray_shape_retain(minkray_shape shape);
 MINKRAY_API int minkray_shape_release(minkray_shape shape);
 
-/* Writes the JSON text from which minkray_shape_read makes the same shape: at most `size` bytes,
- * including the final 0, and to `needed` (if not NULL) the number of bytes required. Custom shapes
- * cannot be written. */
+/* Writes a shape as JSON, which minkray_shape_read reads back: at most `size` bytes, including the
+ * final 0. `needed` (or NULL) receives the number of bytes required. Custom shapes cannot be
+ * written. */
 MINKRAY_API int minkray_shape_write(minkray_shape shape, char* text, size_t size, size_t* needed);
 
 /* The kind's name, such as "rounded". */
@@ -178,7 +179,7 @@ MINKRAY_API int minkray_shape_bounds(minkray_shape shape, double lower[3], doubl
 
 /* ---- scenes ---------------------------------------------------------------------------------- */
 
-/* Objects with poses. {0} is no scene. */
+/* Objects with poses. {0} means no scene. */
 typedef struct minkray_scene {
   uint64_t id;
 } minkray_scene;
@@ -201,13 +202,13 @@ MINKRAY_API int minkray_scene_add_half_space(minkray_scene scene, const double n
 
 typedef struct minkray_file_options {
   size_t size;                     /* sizeof(minkray_file_options) */
-  const minkray_pose* pose;        /* applied to all objects of the file, after their own; or NULL.
-                                    * Must be NULL for files with particles */
+  const minkray_pose* pose;        /* applied to all objects of the file, after their own poses; or
+                                    * NULL. Must be NULL for files with particles */
   const char* geometry;            /* of robots: "visual" (or NULL), "collision" or "all" */
-  const char* keyframe;            /* or NULL */
+  const char* keyframe;            /* name or number of an MJCF keyframe; or NULL */
   const char* const* package_dirs; /* search path for package:// and model:// */
   size_t package_dir_count;
-  int skip_missing_meshes;
+  int skip_missing_meshes; /* 1: missing mesh files are no error */
   const char* meshes; /* of robots: "exact" (triangles) or "hull" (convex hulls of their vertices);
                        * NULL: exact, but hull for contact in MJCF. Read only if `size` covers it */
 } minkray_file_options;
@@ -277,10 +278,10 @@ typedef struct minkray_hit {
   double t;    /* ray parameter: the point is origin + t direction; infinite for a miss */
   double t_lo; /* proven bounds of t */
   double t_hi;
-  double t_base; /* t = t_base + t_offset; the two have more digits than t */
+  double t_base; /* t_base + t_offset is a more precise t */
   double t_offset;
   double point[3];  /* NaN for a miss */
-  double normal[3]; /* outward unit vector, or zero; of a mesh: towards the ray */
+  double normal[3]; /* outward unit vector; of a mesh: towards the ray. Zero unless MINKRAY_HIT */
   uint32_t object;  /* or MINKRAY_NO_OBJECT */
   int32_t status;   /* a minkray_status */
   int32_t supports; /* calls of the object's support mapping */
@@ -299,8 +300,8 @@ typedef struct minkray_options {
 
 /* First hits of rays; among hits at the same t, the object with the smallest number. Results are
  * bit-identical for any split of the rays into calls. A ray is MINKRAY_EXHAUSTED if the solver did
- * not converge for some object, even if another one is hit; that hit is then filled in. Options may
- * be NULL. */
+ * not converge for some object, even if the ray hits another one; the result then has that hit.
+ * Options may be NULL. */
 MINKRAY_API int minkray_scene_cast(minkray_scene scene, const minkray_ray* rays, size_t count,
                                    minkray_hit* hits, const minkray_options* options);
 
@@ -311,7 +312,7 @@ typedef struct minkray_ray_arrays {
   ptrdiff_t origin_stride;
   const double* directions;
   ptrdiff_t direction_stride;
-  const double* t_max; /* NULL: unlimited. A 0 in the array ends its ray at the origin */
+  const double* t_max; /* NULL: unlimited. 0 ends a ray at its origin */
   ptrdiff_t t_max_stride;
 } minkray_ray_arrays;
 
@@ -346,11 +347,11 @@ MINKRAY_API int minkray_scene_occluded_rays(minkray_scene scene, const minkray_r
                                             size_t count, uint8_t* blocked,
                                             const minkray_options* options);
 
-/* Finds where rays last leave one object: MINKRAY_HIT at the greatest t with a point of the object,
- * MINKRAY_INSIDE if they end in it at t_max, MINKRAY_MISS if they miss it. A ray may have left a
- * mesh before, and entered it again. An open mesh has no inside: the result is the last triangle
- * that is hit. Normals point out of the object; normals of a mesh point along the ray. Not for
- * half-spaces, which are unbounded. */
+/* Finds where rays last leave one object. The status is MINKRAY_HIT at the greatest t at which the
+ * ray is in the object, MINKRAY_INSIDE if the ray ends in the object (at t_max), or MINKRAY_MISS.
+ * Earlier exits from a mesh are not reported. An open mesh has no inside: the result is the last
+ * triangle that is hit. Normals point out of the object; normals of a mesh point along the ray. Not
+ * for half-spaces, which are unbounded. */
 MINKRAY_API int minkray_scene_exit(minkray_scene scene, uint32_t object, const minkray_ray* rays,
                                    size_t count, minkray_hit* hits, const minkray_options* options);
 
@@ -360,7 +361,8 @@ typedef struct minkray_crossing {
   double t_lo; /* proven bounds of t */
   double t_hi;
   double point[3];
-  double normal[3]; /* outward unit vector; of a mesh, by the order of the triangle's vertices */
+  double normal[3]; /* outward unit vector; of a mesh: the side on which the triangle's vertices are
+                     * counter-clockwise */
   uint32_t object;
   int32_t part;   /* of a mesh: the triangle; else -1 */
   int32_t leaves; /* 0: the ray enters the object; 1: it leaves */
@@ -378,15 +380,15 @@ typedef struct minkray_all_hits {
                * solver did not converge for some object, whose hits may be missing */
 } minkray_all_hits;
 
-/* Receives all hits, on the calling thread; they are invalid after it returns. Returns 0, or
- * nonzero to end the call with MINKRAY_STOPPED. */
+/* Receives all hits, on the calling thread. The hits are invalid after the function returns.
+ * Returns 0, or nonzero to end the call with MINKRAY_STOPPED. */
 typedef int (*minkray_take_all_hits)(void* user, const minkray_all_hits* found);
 
 /* Finds all entries and exits of rays, with 0 <= t <= t_max. A ray's hits are sorted by t, then by
- * object. An object that a ray begins in is only left, one that it ends in only
- * entered. A closed mesh without self-intersections is entered and left in turn, also where the ray
- * passes exactly through edges and vertices. A ray that only touches a mesh there enters and leaves
- * it at the same t, or does not hit it. */
+ * object. A ray that begins in an object has no entry into it; a ray that ends in an object has no
+ * exit. Entries and exits of a closed mesh without self-intersections alternate, even if the ray
+ * passes exactly through edges and vertices. A ray that only touches an edge or vertex either
+ * enters and leaves the mesh at the same t, or does not hit the mesh. */
 MINKRAY_API int minkray_scene_all_hits(minkray_scene scene, const minkray_ray_arrays* rays,
                                        size_t count, minkray_take_all_hits take, void* user,
                                        const minkray_options* options);
@@ -398,7 +400,7 @@ MINKRAY_API int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose
 
 /* ---- proofs ---------------------------------------------------------------------------------- */
 
-/* Verdict on a result, found by support points alone (docs/certificates.md). */
+/* Proof of a result, by support points alone (docs/certificates.md). */
 typedef struct minkray_proof {
   int32_t holds; /* 1 if proven */
   int32_t reserved;
@@ -408,7 +410,7 @@ typedef struct minkray_proof {
   double t_hi;
   double plane[3]; /* of hits: a plane through t_lo that the object does not cross */
   char complaint[56];
-  double allowed; /* rounding allowed across a plane, as a length */
+  double allowed; /* allowed rounding, a distance perpendicular to a plane */
 } minkray_proof;
 
 /* Proves results of minkray_scene_cast: the object is hit at the reported point, and no other
@@ -421,12 +423,13 @@ MINKRAY_API int minkray_scene_prove(minkray_scene scene, const minkray_ray* rays
 
 /* A lidar's rays. `pattern` is one of
  * - "spinning:CHANNELSxSTEPS[:LOWEST,HIGHEST[:FROM,TO]]": elevations (default -15,15) and azimuths
- *   in degrees. Rays are row by row, the highest elevation first, by default clockwise from behind.
+ *   in degrees. Rays are ordered by row, the highest elevation first. By default a row runs
+ * clockwise, from behind the sensor.
  * - a lidar's name: "VLP-16", "VLP-32C", "HDL-64E", "OS1-64" or "Mid-360".
  * - a file: .csv (Livox), .json of elevations (also Ouster's) or .mat3x4f.
- * In the sensor's frame x is ahead and z is the axis. `pose` is that of the sensor in the world, or
- * NULL. Directions have length 1, so t is the distance. Writes at most `size` rays, and the number
- * of all rays to `needed` (if not NULL). */
+ * In the sensor's frame x points ahead and z is the axis of rotation. `pose` is the sensor's pose
+ * in the world, or NULL. Directions have length 1, so t is the distance. Writes at most `size`
+ * rays. `needed` (or NULL) receives the number of all rays. */
 MINKRAY_API int minkray_lidar_rays(const char* pattern, const minkray_pose* pose, minkray_ray* rays,
                                    size_t size, size_t* needed);
 
@@ -449,9 +452,9 @@ typedef struct minkray_picture_options {
   const char* view;
   uint32_t width; /* in pixels; 0: the camera's */
   uint32_t height;
-  uint32_t samples;  /* per pixel; 0: 16 */
-  int32_t bounces;   /* with integrator "ambient"; 0: 1, less than 0: none */
-  int32_t max_depth; /* with integrator "path"; 0: 16, less than 0: none */
+  uint32_t samples;  /* per pixel; 0: default (16) */
+  int32_t bounces;   /* with integrator "ambient"; 0: default (1), negative: none */
+  int32_t max_depth; /* with integrator "path"; 0: default (16), negative: none */
   int32_t denoise;   /* 1: denoise; needs at least 2 samples */
   uint64_t seed;
   const char* integrator; /* as for `minkray render --integrator`; NULL: "auto" */
@@ -460,8 +463,8 @@ typedef struct minkray_picture_options {
 /* One channel of a picture. */
 typedef struct minkray_channel {
   const char* name; /* "rgb" (linear), or one of `minkray render --aov` except cryptomatte */
-  double* values;   /* interleaved numbers of pixels, in rows from the top */
-  size_t count;     /* of values: width * height * numbers per pixel */
+  double* values;   /* pixel by pixel, in rows from the top */
+  size_t count;     /* number of values: width * height * numbers per pixel */
 } minkray_channel;
 
 /* Returns how many numbers per pixel a channel has, and if they are integers; both pointers may be
@@ -492,7 +495,8 @@ typedef struct minkray_distance {
   double value; /* between lower and upper; minus the depth for an overlap */
   double lower;
   double upper;
-  double point_a[3]; /* point_b - point_a = value normal, to rounding; in contact to 3e-6 sizes */
+  double point_a[3]; /* point_b - point_a = value * normal, up to rounding; if the shapes touch or
+                      * overlap, up to 3e-6 of their sizes */
   double point_b[3];
   double normal[3]; /* unit vector from a to b */
   int32_t status;   /* a minkray_distance_status */
@@ -503,7 +507,7 @@ typedef struct minkray_distance_options {
   size_t size;       /* sizeof(minkray_distance_options) */
   double tolerance;  /* largest gap of the bounds, relative to the shapes' sizes; 0: 1e-10 */
   double at_most;    /* beyond this distance a lower bound is enough; 0: unlimited */
-  int32_t only_sign; /* 1: only decide if they overlap */
+  int32_t only_sign; /* 1: only decide if the shapes overlap */
   int32_t reserved;
 } minkray_distance_options;
 
@@ -516,7 +520,7 @@ MINKRAY_API int minkray_signed_distance(minkray_shape a, const minkray_pose* pos
 
 /* Motion of a shape: `velocity` moves its frame's origin, which is the pose's translation; `turn`
  * is a rotation vector about that point (world axes, radians per unit of time). `minkray cast`
- * turns shapes about the same point, unless a query names another. */
+ * turns shapes about the same point, unless a query has a `pivot`. */
 typedef struct minkray_twist {
   double velocity[3];
   double turn[3];
@@ -526,13 +530,13 @@ typedef enum minkray_impact_status {
   MINKRAY_IMPACT = 0,
   MINKRAY_NO_IMPACT = 1, /* proven */
   MINKRAY_BEGINS_INSIDE = 2,
-  MINKRAY_IMPACT_UNDECIDED = 3 /* no impact before t_lo; not known after it */
+  MINKRAY_IMPACT_UNDECIDED = 3 /* no impact before t_lo; unknown after t_lo */
 } minkray_impact_status;
 
 typedef struct minkray_impact {
-  double t_lo;     /* proven apart before this; t_max if MINKRAY_NO_IMPACT */
-  double t_hi;     /* contact here; infinite if MINKRAY_NO_IMPACT or MINKRAY_IMPACT_UNDECIDED */
-  double distance; /* between the two at t_lo; infinite if unknown */
+  double t_lo;     /* no contact before this time (proven); t_max if MINKRAY_NO_IMPACT */
+  double t_hi;     /* time of contact; infinite if MINKRAY_NO_IMPACT or MINKRAY_IMPACT_UNDECIDED */
+  double distance; /* of the two shapes at t_lo; infinite if unknown */
   double point_a[3];
   double point_b[3];
   double normal[3];
@@ -540,7 +544,7 @@ typedef struct minkray_impact {
   int32_t steps;
 } minkray_impact;
 
-/* Finds the first contact at times from 0 to t_max, which must be finite. Twists may be NULL: at
+/* Finds the first contact at times from 0 to t_max, which must be finite. A NULL twist means at
  * rest. */
 MINKRAY_API int minkray_time_of_impact(minkray_shape a, const minkray_pose* pose_a,
                                        const minkray_twist* twist_a, minkray_shape b,
@@ -568,7 +572,7 @@ typedef struct minkray_clearance {
   double point_a[3];
   double point_b[3];
   double normal[3];  /* unit vector from a to b */
-  uint32_t object_a; /* particles are numbered as in a minkray_hit */
+  uint32_t object_a; /* or a particle: see minkray_scene_size */
   uint32_t object_b;
   int32_t is_settled; /* 0 if the bounds are not within the tolerance */
   int32_t reserved;
@@ -598,10 +602,10 @@ typedef struct minkray_verdict_options {
   int32_t only_obstacles; /* 1: obstacles only, no self-collision */
   int32_t threads;        /* 0: one per core */
   /* Read only if `size` covers them. */
-  const double* accelerations; /* or NULL; second derivatives, as many as `rates`; need `rates` */
-  const char* proof;           /* or NULL; file for a proof, in the frame of the robot's pose, that
-                                * minkray-check confirms */
-  const double* times;         /* or NULL: 0, 1, 2, ...; one time per row, increasing. `rates` and
+  const double* accelerations; /* second derivatives, as many as `rates`; or NULL. Need `rates` */
+  const char* proof;           /* file to write a proof to, for minkray-check; or NULL. The proof is
+                                * in the frame of the robot's pose */
+  const double* times;         /* one per row, increasing; NULL: 0, 1, 2, ... `rates` and
                                 * `accelerations` are derivatives with respect to time */
 } minkray_verdict_options;
 
@@ -609,7 +613,7 @@ typedef struct minkray_verdict {
   double lower; /* proven lower bound of distance minus margin; -infinity unless free */
   double upper; /* the least clearance found; negative for a collision */
   double row;   /* position of `upper`: 2.25 is a quarter of the way from path[2] to path[3] */
-  double begin; /* first interval in which the pair collides, or may collide */
+  double begin; /* first interval in which the pair collides, or may collide: like `row` */
   double end;
   double point[3];   /* midpoint between the two objects, or a point inside both */
   uint32_t object_a; /* the pair; MINKRAY_NO_OBJECT if there is none */

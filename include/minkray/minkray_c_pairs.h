@@ -38,8 +38,8 @@ typedef struct minkray_bodies {
 } minkray_bodies;
 
 /* Warm start: the final state of a query on a pair, kept by the caller for the next query on the
- * same pair. This query is then faster if the two have moved little. All zeros: empty. Bounds hold
- * for any contents; the result's last digits depend on the contents. */
+ * same pair. That query is faster if the two shapes have moved little. All zeros: empty. Bounds
+ * hold for any contents; the last digits of a result depend on the contents. */
 typedef struct minkray_pair_memory {
   uint64_t words[8];
 } minkray_pair_memory;
@@ -48,11 +48,12 @@ typedef struct minkray_pair_memory {
  * query: the velocity of its frame's origin (the pose's translation) along the world's axes, then
  * the angular velocity about that point. `is_ridge` is 1 if the derivative may not be unique: for
  * parallel faces, an edge on a face, a depth in two directions. The reported derivative is then one
- * of them. Derivatives are NaN if the distance is unknown. If any derivative is requested,
+ * of several. Derivatives are NaN if the distance is unknown. If any derivative is requested,
  * distances are computed to a tolerance of 1e-15, and the direction of a depth up to rounding.
  * `jac_error_a` and `jac_error_b` bound the length of a derivative's error, for velocity and for
- * angular velocity. Both are infinite on ridges, for meshes, for depths in more than one direction,
- * and for turns about points that may slide on a surface of unknown curvature. */
+ * angular velocity. Both are infinite on ridges, for meshes, and for depths in more than one
+ * direction. The bound for angular velocity is also infinite if the nearest point may slide on a
+ * surface of unknown curvature. */
 typedef struct minkray_distance_arrays {
   size_t size;                 /* sizeof(minkray_distance_arrays) */
   minkray_distance* distances; /* all results of a pair in one struct */
@@ -118,7 +119,7 @@ typedef struct minkray_manifold {
   double value;   /* the signed distance, as in a minkray_distance */
   double lower;
   double upper;
-  int32_t count;  /* 0 if the distance is unknown; entries beyond it are NaN */
+  int32_t count;  /* of points; 0 if the distance is unknown. Entries from `count` on are NaN */
   int32_t status; /* a minkray_distance_status */
 } minkray_manifold;
 
@@ -127,8 +128,8 @@ typedef struct minkray_manifold_arrays {
   size_t size; /* sizeof(minkray_manifold_arrays) */
   minkray_manifold* manifolds;
   double* normals;  /* three per pair */
-  double* points;   /* midpoints of points_a and points_b: four times three per pair */
-  double* points_a; /* likewise */
+  double* points;   /* midpoints of points_a and points_b: 12 numbers per pair */
+  double* points_a; /* 12 numbers per pair */
   double* points_b;
   double* gaps; /* four per pair */
   double* value;
@@ -148,10 +149,11 @@ MINKRAY_API int minkray_manifolds(const minkray_bodies* a, const minkray_bodies*
 /* ---- the pairs of a scene -------------------------------------------------------------------- */
 
 /* Scenes must be committed before queries. Results exclude removed objects and include particles,
- * which are numbered as in a minkray_hit. */
+ * whose numbers minkray_scene_size explains. */
 
-/* Sets which pairs are tested: those where each object's mask has a bit of the other's category. By
- * default categories are 1 and masks have all bits. Changes the scene; needs no commit. */
+/* Sets which pairs are tested: those where each object's mask shares a bit with the other object's
+ * category. By default categories are 1 and masks have all bits. Changes the scene; needs no
+ * commit. */
 MINKRAY_API int minkray_scene_set_masks(minkray_scene scene, uint32_t object, uint32_t category,
                                         uint32_t mask);
 
@@ -183,18 +185,20 @@ typedef struct minkray_near_options {
   double tolerance;    /* as in minkray_distance_options */
   int32_t derivatives; /* 1: add derivatives */
   uint32_t mask;       /* for given shapes and points: categories to test; 0: all */
-  /* Receives bounds of the length of each derivative's error, by velocity and by angular velocity:
-   * two numbers per shape for minkray_scene_time_of_impact; four per pair, a and then b, for
-   * minkray_scene_nearest and minkray_scene_distance_to. As in minkray_distance_arrays; infinite
-   * for meshes, except above half-spaces. Read if `size` includes it; may be NULL. */
+  /* Receives bounds of the length of each derivative's error, for velocity and for angular
+   * velocity: two numbers per shape for minkray_scene_time_of_impact; four numbers per pair (two
+   * for a, two for b) for minkray_scene_nearest and minkray_scene_distance_to. Infinite as in
+   * minkray_distance_arrays, but finite for a mesh above a half-space. Read if `size` includes it;
+   * may be NULL. */
   double* jac_error;
-  /* For minkray_scene_distances: points to such bounds, four per pair, while `take` runs. Read if
-   * `size` includes it; may be NULL. */
+  /* Set by minkray_scene_distances to an array of such bounds, four per pair, which is valid while
+   * `take` runs. Read if `size` includes it; may be NULL. */
   const double** jac_errors;
 } minkray_near_options;
 
-/* Receives all pairs at once, in the order of their numbers, on the calling thread. The pairs are
- * invalid after it returns. Returns 0, or nonzero to end the call with MINKRAY_STOPPED. */
+/* Receives all pairs at once, sorted by object numbers, on the calling thread. The pairs are
+ * invalid after the function returns. Returns 0, or nonzero to end the call with MINKRAY_STOPPED.
+ */
 typedef int (*minkray_take_pairs)(void* user, const minkray_scene_pair* pairs, size_t count);
 
 /* All pairs of objects not proven to be further apart than `within`. Skips pairs that masks exclude
@@ -214,8 +218,8 @@ MINKRAY_API int minkray_scene_nearest(minkray_scene scene, const double (*points
                                       minkray_scene_pair* nearest, const minkray_options* how);
 
 /* The object nearest to each of many given shapes. The shapes are not part of the scene; in each
- * pair, a is the shape. There is always one, unless the scene is empty or `within` excludes all
- * objects. Options may be NULL: `within` is then infinite. */
+ * pair, a is the shape. There is always an object, unless the scene is empty or `within` excludes
+ * all objects. Options may be NULL: `within` is then infinite. */
 MINKRAY_API int minkray_scene_distance_to(minkray_scene scene, const minkray_bodies* shapes,
                                           size_t count, const minkray_near_options* options,
                                           minkray_scene_pair* nearest, const minkray_options* how);
@@ -270,7 +274,7 @@ MINKRAY_API int minkray_scene_ray_derivatives(minkray_scene scene, const minkray
 /* Clearances with their derivatives with respect to the joint values. Otherwise as
  * minkray_scene_clearance. `jac` gets `numbers` numbers per step: the derivative of the distance at
  * `row`, which `upper` bounds, with respect to the joint values at `row`. Between rows quaternions
- * have length 1; at a row they are as given. Joints that mimic others have zeros; without other
+ * are normalized; at a row they are as given. Joints that mimic others have zeros; without other
  * objects all numbers are zero. `is_ridge` is 1 if the derivative may be ambiguous, or another pair
  * is equally near at `row`. Each of `steps`, `jac` and `is_ridge` may be NULL. `jac_error` of the
  * options holds for the rounded joint values at `row`; infinite on ridges and for meshes. */

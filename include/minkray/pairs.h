@@ -51,7 +51,8 @@ struct DerivativeError {
 };
 
 /// Derivatives with respect to a twist of each body: the velocity of its origin and the angular
-/// velocity about it. `is_ridge` is set where they may be ambiguous. Empty views are not filled.
+/// velocity about it. `is_ridge` is set where the derivatives may be ambiguous. Empty views are not
+/// filled.
 struct Derivatives {
   View<Twist> by_a = {}, by_b = {};
   View<std::uint8_t> is_ridge = {};
@@ -83,7 +84,7 @@ inline minkray_bodies plain(const Bodies& bodies) {
 inline minkray_distance_options plain(const PairOptions& options) {
   return {sizeof(minkray_distance_options), options.tolerance, options.at_most, 0, 0};
 }
-/// Returns null for no things; throws unless there is one per pair.
+/// Returns null if `things` is empty; throws unless there is one thing per pair.
 template <class Plain, class Thing>
 Plain* of_pairs(const char* function, const char* argument, View<Thing> things, std::size_t pairs) {
   if (things.size() == 0) return nullptr;
@@ -169,7 +170,7 @@ inline Distance signed_distance(const Shape& a, const Pose& pose_a, const Shape&
 
 // ---- the pairs of a scene ----
 
-/// Two objects and their distance; no_object is used for a given shape or point, or for no result.
+/// Two objects and their distance. no_object means a given shape or point, or no result.
 struct ScenePair {
   Distance distance;
   Twist by_a, by_b;  ///< derivatives, zero unless requested
@@ -247,9 +248,9 @@ struct NearOptions {
   double tolerance = 0;      ///< largest gap of the bounds, relative to the sizes; 0: 1e-10
   bool derivatives = false;  ///< add derivatives
   std::uint32_t mask = 0;    ///< for given shapes and points: categories to test; 0: all
-  View<DerivativeError> errors = {};  ///< of the derivatives of times of impact: one per shape
+  View<DerivativeError> errors = {};  ///< receives error bounds from times_of_impact: one per shape
   bool derivative_errors = false;     ///< fill ScenePairs::errors()
-  View<PairDerivativeError> pair_errors = {};  ///< for distance_to: one per shape
+  View<PairDerivativeError> pair_errors = {};  ///< receives error bounds from distance_to
   Options how = {};
 };
 

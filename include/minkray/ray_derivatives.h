@@ -16,7 +16,7 @@ struct RayTwist {
   Vec3 origin, direction;
 };
 
-/// Derivatives of t with respect to the rays, and to a twist of the objects that they hit; see
+/// Derivatives of t with respect to the rays, and to a twist of the hit objects; see
 /// minkray_ray_derivatives. One item per ray; empty views are not filled.
 struct RayDerivatives {
   View<RayTwist> by_ray = {};
