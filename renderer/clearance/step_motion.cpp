@@ -63,8 +63,8 @@ std::string mistake_of(const ModelJoint& joint, const std::vector<double>& befor
     else if (i < before.size() && (quaternion < 0 || i < static_cast<std::size_t>(quaternion)) &&
              !std::isfinite(now[i] - before[i]))
       std::snprintf(text, sizeof text,
-                    "must not go further in one step than numbers reach (%g to %g)", before[i],
-                    now[i]);
+                    "must not change by more than the range of double in one step (%g to %g)",
+                    before[i], now[i]);
     if (*text) return told(text);
   }
   return "";

@@ -122,8 +122,7 @@ void run(ScanVerbOptions& options) {
   for (const std::string& output : options.outputs) {
     const ScanFormat& format = scan_format_of(output);
     if (format.is_image && rays.width == 0)
-      throw WrongUsage("--output: rays without rows and columns make no image (got " + output +
-                       ")");
+      throw WrongUsage("--output: an image needs rays in rows and columns (got " + output + ")");
     if (format.ending == ".mcap" && echoes > double(most_mcap_points))
       throw WrongUsage("--output: " + output + " holds at most " +
                        std::to_string(most_mcap_points) + " echoes");

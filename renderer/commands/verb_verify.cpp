@@ -240,7 +240,7 @@ void verify(VerifyOptions& options, ExitCode& exit_code) {
       std::cout << verdict_text(judged.name, judged.verdict, judged.plan, cell.cell);
     write_outputs(options, judged, cell);
   });
-  if (failed) throw BadInput("--trajectory: a plan could not be read; the others were judged");
+  if (failed) throw BadInput("--trajectory: a plan could not be read; the others were verified");
 }
 
 }  // namespace

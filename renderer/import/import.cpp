@@ -189,7 +189,7 @@ Imported import_alone(const std::filesystem::path& file, const ImportOptions& op
   for (const Object& object : imported.scene.objects)
     if (!object.pose.linear.allFinite() || !object.pose.translation.allFinite()) {
       mistakes.add("the shape " + printable(object.name, 100) +
-                   " has a position beyond the range of numbers");
+                   " has a position beyond the range of double");
       break;
     }
   throw_if_any(mistakes);

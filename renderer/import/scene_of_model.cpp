@@ -151,7 +151,7 @@ void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes) 
     }
     if (joint->mimic) {
       mistakes.add("--joint: " + printable(name, 60) + " follows " +
-                   printable(joint->mimic->joint, 60) + ", and takes no value of its own");
+                   printable(joint->mimic->joint, 60) + ", so it cannot be set");
       continue;
     }
     std::vector<double> values;

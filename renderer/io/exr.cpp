@@ -169,7 +169,8 @@ std::size_t count_channels(const Imf::Header& header) {
 Imf::Header read_header(Imf::IStream& stream, std::size_t file_bytes) {
   std::array<char, 4> begin, version;
   stream.read(begin.data(), begin.size());
-  if (begin != magic) throw std::runtime_error("it does not begin like one");
+  if (begin != magic)
+    throw std::runtime_error("it does not begin with the bytes of an OpenEXR file");
   stream.read(version.data(), version.size());
   Imf::Header header;
   int flags = 0;

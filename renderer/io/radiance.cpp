@@ -75,7 +75,7 @@ class RadianceReader {
         return number;
       }
     }
-    wrong("must say its size as -Y HEIGHT +X WIDTH: rows from the top, each from the left");
+    wrong("must give its size as -Y HEIGHT +X WIDTH: rows from the top, each from the left");
   }
   void read_size() {
     std::string_view text = line();

@@ -47,10 +47,11 @@ RenderJob job_of(const RenderArguments& options, const Ranks& ranks) {
   RenderJob job;
   check_exposure(options.exposure);
   if (!options.stats.empty() && options.stats != "true" && options.stats != "json")
-    throw WrongUsage("--stats: takes nothing or =json (got " + options.stats + ")");
+    throw WrongUsage("--stats: must be given alone or as --stats=json (got " + options.stats + ")");
   if (std::isnan(options.checkpoint_seconds))
     throw WrongUsage("--checkpoint: must be a number of seconds (got nan)");
-  if (std::isnan(options.rate)) throw WrongUsage("--rate: must be a number of frames (got nan)");
+  if (std::isnan(options.rate))
+    throw WrongUsage("--rate: must be a number of frames per second (got nan)");
   if (options.aov) {
     check_channels(*options.aov);
     job.channels = parse_data_channels(*options.aov);
@@ -68,25 +69,27 @@ RenderJob job_of(const RenderArguments& options, const Ranks& ranks) {
   if (options.sample_share)
     job.options.sample_share = parse_share(*options.sample_share, "--sample-share");
   if (options.sample_share && options.noise > 0)
-    throw WrongUsage("--noise: needs all samples of a pixel; not allowed with --sample-share");
+    throw WrongUsage(
+        "--noise: not allowed with --sample-share, since it needs all samples of a pixel");
   if (options.sample_share && options.aov)
-    throw WrongUsage("--aov: goes with --tile, but not with --sample-share");
+    throw WrongUsage("--aov: not allowed with --sample-share (use --tile)");
   if (options.progressive && (options.is_share() || ranks.count() > 1))
     throw WrongUsage(
-        "--progressive: shows a whole picture: not with --tile, --sample-share or MPI");
+        "--progressive: not allowed with --tile, --sample-share or MPI, which render parts");
   if (options.denoise && (options.is_share() || ranks.count() > 1))
-    throw WrongUsage("--denoise: needs a whole picture: not with --tile, --sample-share or MPI");
+    throw WrongUsage(
+        "--denoise: not allowed with --tile, --sample-share or MPI, which render parts");
   if (options.denoise && options.image.samples < 2)
     throw WrongUsage("--denoise: needs at least 2 samples per pixel");
   if (!options.tev.empty() && (options.is_share() || ranks.count() > 1))
-    throw WrongUsage("--tev: shows a whole picture: not with --tile, --sample-share or MPI");
+    throw WrongUsage("--tev: not allowed with --tile, --sample-share or MPI, which render parts");
   if (ranks.count() > 1 && options.is_share())
-    throw WrongUsage(
-        "--tile, --sample-share: the ranks of an MPI job share the picture themselves");
+    throw WrongUsage("--tile, --sample-share: not allowed with MPI, whose ranks share the picture");
   if (options.certify && (ranks.count() > 1 || options.resume))
-    throw WrongUsage("--certify: proves the rays of one whole run: not with --resume or MPI");
+    throw WrongUsage(
+        "--certify: not allowed with --resume or MPI, since it proves all rays of one run");
   if (ranks.count() == 1 && options.tiles)
-    throw WrongUsage("--tiles: is for several ranks of an MPI job (mpirun minkray render)");
+    throw WrongUsage("--tiles: requires several MPI ranks (mpirun minkray render)");
   if (ranks.rank() == 0) check_outputs(outputs);
   job.command = command_line();
   job.checkpoint_seconds = options.checkpoint_seconds;
@@ -99,18 +102,20 @@ RenderJob job_of(const RenderArguments& options, const Ranks& ranks) {
 
 FrameRange frames_of(const RenderArguments& options, const Ranks& ranks) {
   if (!options.frames) {
-    if (!options.contact_sheet.empty())
-      throw WrongUsage("--contact-sheet: goes with --frames only");
+    if (!options.contact_sheet.empty()) throw WrongUsage("--contact-sheet: requires --frames");
     return {};
   }
   const FrameRange frames = parse_frames(*options.frames);
   for (const std::string& output : options.image.outputs) check_frame_name(output);
   if (options.is_share() || ranks.count() > 1)
-    throw WrongUsage("--frames: not with --tile, --sample-share or MPI; share the frames instead");
-  if (options.certify) throw WrongUsage("--frames: not with --certify, which proves one picture");
+    throw WrongUsage(
+        "--frames: not allowed with --tile, --sample-share or MPI (share the frames instead)");
+  if (options.certify)
+    throw WrongUsage("--frames: not allowed with --certify, which proves one picture");
   if (options.contact_sheet.empty()) return frames;
   if (options.resume)
-    throw WrongUsage("--contact-sheet: shows the frames of a whole run: not with --resume");
+    throw WrongUsage(
+        "--contact-sheet: not allowed with --resume, since it shows all frames of one run");
   check_outputs({options.contact_sheet});
   return frames;
 }

@@ -145,7 +145,7 @@ VerifyCell load_cell(const VerifyInputs& inputs, CommandFiles& files) {
       else
         found.add(path,
                   "must be a planning scene (with world, robot_state or "
-                  "allowed_collision_matrix), or a scene of ours (with objects)");
+                  "allowed_collision_matrix), or a Minkray scene (with objects)");
     });
     throw_if_any(of_scene);
     for (const std::string& note : planning.notes) cell.notes.push_back(file + ": " + note);

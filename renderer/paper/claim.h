@@ -74,8 +74,7 @@ inline constexpr std::array claims = {
                "the iterates decrease in length, and faceted objects need a finite number of steps",
                distance_decreases},
     PaperClaim{"j", "caching in our own queries",
-               "what d says, of distances and times of impact that have overtaken the paper's",
-               caching_in_own_queries},
+               "as (d), for our queries of distances and times of impact", caching_in_own_queries},
 };
 
 }  // namespace minkray

@@ -207,11 +207,13 @@ void CollisionObjects::add(const Json& json, const JsonPath& path,
       if (known != objects.end()) objects.erase(known);
       return;
     case Operation::move:
-      return mistakes_.add(path / "operation", "must not be 3 (move): give the object where it is");
+      return mistakes_.add(path / "operation",
+                           "must not be 3 (move): give the object with its pose (add)");
     case Operation::append:
       if (known != objects.end()) {
         if (known->frame != object.frame)
-          mistakes_.add(path / "header" / "frame_id", "must be that of the object it adds to");
+          mistakes_.add(path / "header" / "frame_id",
+                        "must be the frame of the existing object to which this one is appended");
         for (ModelGeom& geom : object.geoms) known->geoms.push_back(std::move(geom));
         return;
       }

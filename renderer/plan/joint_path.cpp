@@ -121,8 +121,8 @@ void note_distant_start(Trajectory& trajectory) {
     if (row == first.end() || numbers.size() != 1 || row->second.size() != 1) continue;
     if (std::abs(row->second[0] - numbers[0]) <= near) continue;
     trajectory.notes.push_back("the joint \"" + printable(name, 60) +
-                               "\" is not at its start in the first row; the way there is not "
-                               "verified");
+                               "\" has another value in the first row than in the start state; the "
+                               "motion between the two is not verified");
     return;
   }
 }

@@ -159,7 +159,7 @@ JointValues read_robot_state(const Json& json, const JsonPath& path, const Model
       const ModelJoint* joint = joint_of(model, names[i]);
       if (!joint)
         notes.push_back((at / "name" / i).text() + ": there is no joint \"" +
-                        printable(names[i], 60) + "\"; its value is passed over");
+                        printable(names[i], 60) + "\"; its value is ignored");
       else if (width_of(joint->kind) == 1 && !joint->mimic)
         values.emplace_back(names[i], std::vector<double>{positions[i]});
     }
@@ -228,7 +228,7 @@ PlanningScene read_planning_scene(const Document& document, const Json& json, co
         std::ranges::find(model.links, name, &ModelLink::name) != model.links.end();
     if (!is_link)
       scene.notes.push_back((at / "link_name").text() + ": there is no link \"" +
-                            printable(name, 60) + "\"; its padding is passed over");
+                            printable(name, 60) + "\"; its padding is ignored");
     if (const Json* value = member_of(padding[i], "padding"))
       scene.padding[name] =
           read_number(*value, at / "padding", mistakes, Range::not_negative).value_or(0);

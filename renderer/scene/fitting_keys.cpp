@@ -80,7 +80,7 @@ void find_sun(SunSkyLight& day, const Json& json, const JsonPath& path, Mistakes
   }
   day.sun = direction_of_sun(*days, *day.latitude_degrees, *day.longitude_degrees);
   if (!(day.sun.z() > 0))
-    mistakes.add(path / "time", "must be by day: the sun is below the horizon (" +
+    mistakes.add(path / "time", "must be in daytime: the sun is below the horizon (" +
                                     found(*json.find("time")) + ")");
   // Written as a direction, not as time and location.
   day.time.clear();
@@ -100,7 +100,7 @@ void check_relief(const Relief& relief, const JsonPath& path, Mistakes& mistakes
     return paint.texture() && std::holds_alternative<ImageTexture>(*paint.texture());
   };
   if (relief.bump && !relief.bump->texture())
-    mistakes.add(path / "bump", "must be a texture: what is even has no bumps");
+    mistakes.add(path / "bump", "must be a texture (a constant colour has no bumps)");
   if (relief.normal_map && !is_picture(*relief.normal_map))
     mistakes.add(path / "normal_map", "must be a texture of type \"image\"");
 }

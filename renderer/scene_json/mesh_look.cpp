@@ -136,7 +136,7 @@ void check_look(const Scene& scene, const Object& object, const JsonPath& path,
     const Material& own = scene.materials[object.material];
     if (i == object.material) continue;
     if (lets_through(scene, material) || lets_through(scene, own))
-      mistakes.add(path, "must be of one material if any of it lets light through" + of);
+      mistakes.add(path, "must have a single material if any of its materials is transparent" + of);
     if (material.visible_to != own.visible_to)
       mistakes.add(path, "must have materials that are all visible to the same rays" + of);
   }

@@ -65,9 +65,9 @@ void ObjectsReader::read_item(const Json& json, const JsonPath& path, const Fram
 void ObjectsReader::read_group(const Json& json, const JsonPath& path, const Frame& frame) {
   ObjectReader group(json, path, mistakes_);
   if (++groups_ > most_groups || scene_.objects.size() > most_objects_of_groups) {
-    mistakes_.add(path, "must not be one of more than " + std::to_string(most_groups) +
-                            " groups, or of groups of more than " +
-                            std::to_string(most_objects_of_groups) + " objects");
+    mistakes_.add(path, "must not bring the number of groups above " + std::to_string(most_groups) +
+                            ", or that of their objects above " +
+                            std::to_string(most_objects_of_groups));
     is_full_ = true;
     return;
   }

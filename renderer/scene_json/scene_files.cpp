@@ -113,9 +113,9 @@ const SceneFile* SceneFiles::include(SceneFile& file, const Json& name, const Js
   const auto known = known_.find(identity);
   if (known != known_.end()) return file.included[&name] = known->second;
   if (chain_.size() >= deepest_includes || files_.size() >= most_included_files) {
-    mistakes_.add(path, "must not be one of more than " + std::to_string(most_included_files) +
-                            " files, or of more than " + std::to_string(deepest_includes) +
-                            " that include each other");
+    mistakes_.add(path, "must not bring the number of included files above " +
+                            std::to_string(most_included_files) + ", or their nesting above " +
+                            std::to_string(deepest_includes));
     return nullptr;
   }
   std::string text;

@@ -193,8 +193,8 @@ double claimed(double lower, const std::vector<ClearanceBody>& bodies, const Joi
   constexpr double of_clearance = 1e-9, of_distances = 1e-11;
   const double claim = (1 - of_clearance) * lower - of_distances * furthest(bodies, path);
   if (!(claim > 0))
-    throw BadInput("proof: the least clearance is too small for the rounding of minkray-check (" +
-                   number_json(lower).dump() + " m); without a proof it is verified anyway");
+    throw BadInput("proof: the minimum clearance is too small for the rounding of minkray-check (" +
+                   number_json(lower).dump() + " m); the verdict itself needs no proof");
   return claim;
 }
 

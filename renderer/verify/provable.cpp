@@ -26,7 +26,7 @@ constexpr double share = 0.5;
 
 [[noreturn]] void no_proof(const ClearanceBody& a, const ClearanceBody& b, const char* why) {
   throw BadInput("proof: " + printable(a.name, 100) + " and " + printable(b.name, 100) + " " + why +
-                 "; --meshes hull uses hulls, and without a proof they are verified anyway");
+                 "; use --meshes hull, or verify without a proof");
 }
 
 /// The body with these triangles of its mesh only.
@@ -169,7 +169,7 @@ class Splitter {
       return can_be(number) ? made_.bodies[number].ball_radius() : -1;
     };
     if (!can_be(pair.a) && !can_be(pair.b))
-      no_proof(made_.bodies[pair.a], made_.bodies[pair.b], "are kept apart by no plane");
+      no_proof(made_.bodies[pair.a], made_.bodies[pair.b], "have no separating plane");
     if (size(pair.a) >= size(pair.b)) {
       for (const std::size_t part : parts_of(pair.a)) finer.push_back({part, pair.b, pair.margin});
     } else {

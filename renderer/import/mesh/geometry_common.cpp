@@ -154,7 +154,8 @@ void add_mesh(Model& model, XmlFiles& files, const XmlElement& element,
     return files.missing_mesh({element, answer.complaint, geom.is_seen, geom.collides});
   if (!answer.complaint.empty()) return files.wrong(element, answer.complaint);
   for (const std::string& note : answer.notes) model.pass_over("<mesh>", note);
-  if (answer.is_flattened) model.pass_over("extent of a <mesh>", "its scale is zero there");
+  if (answer.is_flattened)
+    model.pass_over("extent of a <mesh>", "ignored in directions in which the scale is zero");
   if (const auto complaint = add_parts(model, answer, std::move(geom), colouring))
     files.wrong(element, *complaint);
 }

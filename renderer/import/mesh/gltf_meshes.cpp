@@ -311,9 +311,9 @@ void GltfMeshes::add_shown(std::span<const std::size_t> nodes, const Affine<doub
     if (++visits > document_.count("nodes"))
       return document_.mistakes().add(path, "must not contain itself");
     if (const std::size_t most = most_gltf_visits + document_.count("nodes"); ++visits_ > most)
-      return document_.mistakes().add(
-          path, "must not be below so many colliders' nodes: with it, more than " +
-                    std::to_string(most) + " nodes are below all of them");
+      return document_.mistakes().add(path, "number of nodes below colliders must be at most " +
+                                                std::to_string(most) +
+                                                ", counted once per collider");
     const Json& json = document_.item("nodes", at.node);
     if (const auto index = document_.index(json, path, "mesh", "meshes")) {
       const GltfMeshUse use = gltf_mesh_use(document_, *index, at.node);

@@ -246,7 +246,8 @@ void add_composite(Model& model, int body, const XmlElement& composite, XmlFiles
   if (!plan) return;
   const double elements = static_cast<double>(model.geoms.size()) + plan->elements();
   if (elements > most_composite_elements)
-    files.wrong(composite, "count: with the geoms before it, at most 100,000 elements");
+    files.wrong(composite,
+                "count: must be at most 100,000 elements, together with all geoms before it");
   else
     Composite(model, std::move(*plan), composite, files).add(body);
 }

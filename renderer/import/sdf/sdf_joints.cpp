@@ -152,7 +152,7 @@ void SdfTree::add_joint(const SdfJoint& from, const Affine<double>& child_in_wor
   const auto kind = kinds.find(type);
   if (kind == kinds.end())
     return files_.wrong(*from.element,
-                        "type: must be a joint's (got \"" + printable(type, 40) + "\")");
+                        "type: must be a type of joint (got \"" + printable(type, 40) + "\")");
   if (type == "screw" || type == "gearbox")
     model_.pass_over("<joint type=\"" + type + "\">", "only turns here");
   const std::string own = from.element->attribute_or("name");

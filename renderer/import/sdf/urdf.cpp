@@ -187,7 +187,8 @@ class UrdfReader {
     const auto roots = std::ranges::count_if(
         open, [&](const std::string& name) { return !joint_of_child_.contains(name); });
     if (roots > 1)
-      model_.pass_over("links without a parent", "several: each is placed in the world on its own",
+      model_.pass_over("links without a parent",
+                       "more than one: each is placed at the origin of the world",
                        static_cast<std::size_t>(roots));
     std::ranges::reverse(open);
     std::map<std::string, int> index;

@@ -205,7 +205,7 @@ void CustomSupport::jets(std::size_t count, const Coordinates* directions, Coord
     for (std::size_t i = 0; i < count && !has_lied(); ++i) {
       check(directions[i], points[i]);
       if (!std::ranges::all_of(derivatives[i], [](double x) { return std::isfinite(x); }))
-        complain("the function with derivatives answered one that is not finite along " +
+        complain("the function with derivatives returned a derivative that is not finite along " +
                  text_of(directions[i]));
     }
   }
@@ -260,7 +260,7 @@ void CustomSupport::run(const char* function, Call&& call) const {
 
 void CustomSupport::check(const Coordinates& n, const Coordinates& point) const {
   if (!is_finite(point))
-    return complain("the support function answered a point that is not finite, " + text_of(point) +
+    return complain("the support function returned a point that is not finite, " + text_of(point) +
                     ", along " + text_of(n));
   const double reach = dot(n, point) + allowed_;
   // Numbers that are as wide as what is compared make one loop of packets.

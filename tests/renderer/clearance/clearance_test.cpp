@@ -339,8 +339,8 @@ std::string refusal(const std::vector<JointRow>& rows) {
 /// The way between such rows is infinite, which became 2^63 parts of a sweep.
 TEST(Clearance, rows_that_nobody_can_go_between_are_refused) {
   EXPECT_EQ(refusal({{0, {{"elbow", {-1e308}}}}, {1, {{"elbow", {1e308}}}}}),
-            "path: row 2 of 2: the joint \"elbow\" must not go further in one step than numbers "
-            "reach (-1e+308 to 1e+308)");
+            "path: row 2 of 2: the joint \"elbow\" must not change by more than the range of "
+            "double in one step (-1e+308 to 1e+308)");
   EXPECT_EQ(refusal({{0, {{"elbow", {1e308}}}}, {1, {{"elbow", {1.1e308}}}}}), "");
   EXPECT_NE(refusal({{0, {{"wrist", {std::numeric_limits<double>::infinity()}}}}}).find("finite"),
             std::string::npos);

@@ -69,7 +69,8 @@ TEST_F(NothingLost, a_huge_file_is_looked_at_before_it_is_read) {
   for (const char* name : {"zeros.exr", "long.exr", "large.exr"})
     fs::resize_file(folder_ / name, huge);
   std::vector<std::pair<std::string, std::string>> cases = {
-      {"zeros.exr", ": cannot be used as an OpenEXR image: it does not begin like one"},
+      {"zeros.exr",
+       ": cannot be used as an OpenEXR image: it does not begin with the bytes of an OpenEXR file"},
       {"long.exr", ": cannot be used as an OpenEXR image: its 2147483648 bytes are far more"},
   };
   if (!limited_memory().empty()) cases.emplace_back("large.exr", ": not enough memory to read it");

@@ -162,7 +162,7 @@ TEST(ClearanceVerb, what_is_wrong_is_told) {
   std::ofstream(folder / "far.csv") << "swing\n-1e308\n1e308\n";
   const ProgramOutcome far = clearance(folder, "--path far.csv --sweep sweep.json");
   EXPECT_EQ(far.exit_code, 3);
-  EXPECT_NE(far.err.find("path: row 2 of 2: the joint \"swing\" must not go further"),
+  EXPECT_NE(far.err.find("path: row 2 of 2: the joint \"swing\" must not change by more"),
             std::string::npos)
       << far.err;
   EXPECT_EQ(clearance(folder, "--path swing.csv --allow bob").exit_code, 3);

@@ -288,7 +288,7 @@ TEST_F(ScanVerb, wrong_numbers_of_sensors_are_told_before_anything_is_written) {
         {"--pattern VLP-16 --divergence -1", "--divergence"},
         {"--pattern VLP-16 --beam-rays 0", "--beam-rays"},
         {"--pattern VLP-16 --start -1 -o a.mcap", "--start: must be >= 0 for a.mcap"},
-        {"--pattern Mid-360 -o a.json", "rays without rows and columns make no image (got a.json)"},
+        {"--pattern Mid-360 -o a.json", "an image needs rays in rows and columns (got a.json)"},
         {"--pattern HDL-32 ", "known here: spinning:CHANNELSxSTEPS, VLP-16"}}) {
     const ProgramOutcome outcome = scan("r.urdf -o a.npy " + std::string(words));
     EXPECT_EQ(outcome.exit_code, 2) << words;

@@ -114,7 +114,7 @@ TEST(Radiance, what_is_wrong_is_told) {
   told("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\nabcd", "must have FORMAT=32-bit_rle_rgbe");
   for (const char* size :
        {"+Y 1 +X 1", "-Y 1 -X 1", "-Y 1", "-Y -1 +X 1", "-Y 99999999999 +X 1", ""})
-    told("#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n" + std::string(size) + "\nabcd", "must say its size");
+    told("#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n" + std::string(size) + "\nabcd", "must give its size");
   told(header(0, 4), "must have pixels (got 0 x 4)");
   told(header(20000, 20000), "must have at most 2^27 pixels (got 20000 x 20000)");
   told(header(10000, 10000) + "abcd", "is too short for 10000 x 10000 pixels");

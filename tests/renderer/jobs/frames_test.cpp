@@ -125,10 +125,10 @@ TEST_F(Frames, wrong_usage_is_told_and_leaves_nothing) {
   tells("--frames 1..x -o 'f#.png'", "--frames: must be the first and the last frame");
   tells("--frames 0..1 -o f.png", "must have one run of # for the frame's number");
   tells("--frames 0..1 -o 'f#-#.png'", "must have one run of # for the frame's number");
-  tells("--frames 0..1 -o 'f#.exr' --tile 1/2", "--frames: not with --tile");
-  tells("--frames 0..1 -o 'f#.png' --certify", "--frames: not with --certify");
-  tells("-o f.png --contact-sheet s.png", "--contact-sheet: goes with --frames only");
-  tells("--frames 0..1 -o 'f#.png' --contact-sheet s.png --resume", "not with --resume");
+  tells("--frames 0..1 -o 'f#.exr' --tile 1/2", "--frames: not allowed with --tile");
+  tells("--frames 0..1 -o 'f#.png' --certify", "--frames: not allowed with --certify");
+  tells("-o f.png --contact-sheet s.png", "--contact-sheet: requires --frames");
+  tells("--frames 0..1 -o 'f#.png' --contact-sheet s.png --resume", "not allowed with --resume");
   tells("--frames 0..1 -o 'f#.png' --contact-sheet s.txt", "s.txt");
   EXPECT_TRUE(pictures().empty());
 }

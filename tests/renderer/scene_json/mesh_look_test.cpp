@@ -146,7 +146,8 @@ TEST_F(MeshLookJson, mistakes_are_told_with_their_place) {
        "/objects/0/mesh/material_of/1: must be null or the number of one of the 1 materials"},
       {mesh(R"("materials": ["grey"])"), "/objects/0/mesh/material_of: missing"},
       {mesh(R"("materials": ["glass"], "material_of": [0, null])"),
-       "/objects/0: must be of one material if any of it lets light through (material \"glass\")"},
+       "/objects/0: must have a single material if any of its materials is transparent (material "
+       "\"glass\")"},
       {R"("mesh": {"file": "bad.obj"})", "normals of 1 triangle is unusable"},
       {R"("mesh": {"file": "bad.obj", "uv": []})", "/objects/0/mesh/uv"},
       {R"("shape": {"type": "sphere", "radius": 1}, "material": "by_uv")",

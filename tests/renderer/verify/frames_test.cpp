@@ -128,7 +128,7 @@ TEST_F(FarFrames, proofs_far_from_the_origin_hold) {
   const ProgramOutcome none =
       verify("--scene scene.yaml --trajectory near.yaml --tolerance 0.1 -o none.json");
   EXPECT_EQ(none.exit_code, 3);
-  EXPECT_NE(none.err.find("proof: the least clearance is too small"), std::string::npos)
+  EXPECT_NE(none.err.find("proof: the minimum clearance is too small"), std::string::npos)
       << none.err;
 }
 

@@ -154,10 +154,11 @@ TEST_F(OddInputs, times_of_tables_are_times) {
 
 /// Such motions are free, but for what is not verified.
 TEST_F(OddInputs, starts_elsewhere_and_robots_without_shapes_have_notes) {
-  expect_begin(with_plan("trajectory_start: {joint_state: {name: [turn], position: [1]}}\n"
-                         "joint_trajectory: {joint_names: [turn], points: [{positions: [0]}, "
-                         "{positions: [1]}]}\n"),
-               "0 odd.yaml: the joint \"turn\" is not at its start in the first row");
+  expect_begin(
+      with_plan("trajectory_start: {joint_state: {name: [turn], position: [1]}}\n"
+                "joint_trajectory: {joint_names: [turn], points: [{positions: [0]}, "
+                "{positions: [1]}]}\n"),
+      "0 odd.yaml: the joint \"turn\" has another value in the first row than in the start state");
   write("r.urdf", R"(<robot name="r"><link name="base"/><link name="bob"><visual><geometry>
   <sphere radius="0.1"/></geometry></visual></link><joint name="turn" type="continuous">
   <parent link="base"/><child link="bob"/></joint></robot>)");
