@@ -243,7 +243,8 @@ ExitCode cast(const CastVerbOptions& options) {
   if (in.bad()) throw BadInput(name + ": cannot be read");
   if (options.certify)
     std::cerr << "certificates: " << certificates.holding << " hold, " << certificates.failing
-              << " do not; " << certificates.without << " results without (distances, turning)\n";
+              << " fail; " << certificates.without
+              << " results have none (distances, shapes that turn)\n";
   has_wrong |= certificates.failing > 0;
   return has_malformed ? ExitCode::bad_input
                        : (has_wrong ? ExitCode::comparison_failed : ExitCode::done);

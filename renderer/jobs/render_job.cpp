@@ -54,9 +54,9 @@ RenderedJob run(const RenderJob& job, Checkpoint& checkpoint, const Spectator& s
   if (job.resume && checkpoint.exists()) {
     journal = checkpoint.load();
   } else if (!job.quiet && job.resume) {
-    std::cerr << "no checkpoint: from the beginning\n";
+    std::cerr << "no checkpoint found: the render starts from the beginning\n";
   } else if (!job.quiet && checkpoint.exists()) {
-    std::cerr << "starting again and replacing the checkpoint; --resume continues it\n";
+    std::cerr << "the existing checkpoint is replaced (--resume would continue it)\n";
   }
   journal.finished = [&](const Rendering& rendering, std::size_t tile) {
     checkpoint.tile_finished(rendering, tile);

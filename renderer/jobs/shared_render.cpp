@@ -210,7 +210,7 @@ void remove_parts(const std::string& output, int tiles) {
   const std::string why = error == std::errc::directory_not_empty
                               ? ": it contains more than this picture's tiles"
                               : ": " + error.message();
-  std::cerr << "note: " + printable(folder) + " stays" + printable(why) + "\n";
+  std::cerr << "note: " + printable(folder) + " is not removed" + printable(why) + "\n";
 }
 
 }  // namespace minkray

@@ -64,7 +64,8 @@ TEST(Cli, certificates_are_summed_up_on_stderr) {
   const ProgramOutcome cast =
       run("cast --certify '" + (source_folder() / "tests/cases/hard-casts.jsonl").string() + "'");
   EXPECT_EQ(cast.exit_code, 0);
-  EXPECT_EQ(cast.err, "certificates: 100 hold, 0 do not; 0 results without (distances, turning)\n");
+  EXPECT_EQ(cast.err,
+            "certificates: 100 hold, 0 fail; 0 results have none (distances, shapes that turn)\n");
   const TemporaryFolder folder;
   const std::string picture = folder / "certified.png";
   const ProgramOutcome render =
