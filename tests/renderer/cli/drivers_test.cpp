@@ -37,7 +37,7 @@ TEST_F(Drivers, gnu_parallel) {
       "cd ..; \"$DRIVERS/render-parallel\" scene.json b.pfm 3 -s 8 && ls -A b.pfm.parts");
   EXPECT_EQ(noted.exit_code, 0) << noted.err;
   EXPECT_EQ(noted.out, "notes.txt\n");
-  EXPECT_NE(noted.err.find("note: b.pfm.parts stays"), std::string::npos) << noted.err;
+  EXPECT_NE(noted.err.find("note: b.pfm.parts is not removed"), std::string::npos) << noted.err;
   const ProgramOutcome strange =
       shell(std::string("name=") + strange_name +
             "; name=\"{} {#} {.}\n$name\"; "
@@ -115,7 +115,7 @@ echo "$job;cluster"
             "\"$DRIVERS/render-slurm\" scene.json 'b%.pfm' 5 -s 8 && cmp a.pfm 'b%.pfm' && "
             "wc -l < jobs && ls -A 'b%.pfm.parts' && cat 'b%.pfm.log'");
   EXPECT_EQ(split.exit_code, 0) << split.err;
-  EXPECT_NE(split.out.find("4\nnotes.txt\nnote: b%.pfm.parts stays"), std::string::npos)
+  EXPECT_NE(split.out.find("4\nnotes.txt\nnote: b%.pfm.parts is not removed"), std::string::npos)
       << split.out;
   const ProgramOutcome strange =
       shell(prepare + "name=" + strange_name +

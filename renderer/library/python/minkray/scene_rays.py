@@ -47,7 +47,7 @@ class RaysOfScene:
         rays : (N, 6) or (..., 6) array
             Origin and direction (of any length except zero). Arrays of float64 are not copied.
         t_max : float or (...) array, optional
-            Largest `t` of the ray. None: no end; 0: only the origin.
+            Largest `t` of the ray. None: unlimited; 0: only the origin.
         threads : int
             0: one per core. Results are bit-identical for any number.
         jac : bool
@@ -110,15 +110,15 @@ class RaysOfScene:
         Parameters
         ----------
         object : int
-            Its number; not a half-space, which is unbounded.
+            Number of the object; not a half-space, which is unbounded.
         rays, t_max, threads
             As for `cast_rays`.
 
         Returns
         -------
         Hits
-            HIT at the greatest t with a point of the object, INSIDE where a ray ends in it at t_max, or
-            MISS. A ray may have left a mesh before, and entered it again. An open mesh has no inside:
+            HIT at the greatest t at which the ray is in the object, INSIDE if the ray ends in the object
+            (at t_max), or MISS. Earlier exits from a mesh are not reported. An open mesh has no inside:
             the result is the last triangle that is hit. Normals point out of the object; normals of a
             mesh point along the ray.
 
@@ -147,10 +147,10 @@ class RaysOfScene:
         Returns
         -------
         AllHits
-            An object that a ray begins in is only left, one that it ends in only entered. A closed mesh
-            without self-intersections is entered and left in turn, also where the ray passes exactly
-            through edges and vertices. A ray that only touches a mesh there enters and leaves it at the
-            same t, or does not hit it.
+            A ray that begins in an object has no entry into it; a ray that ends in an object has no exit.
+            Entries and exits of a closed mesh without self-intersections alternate, even if the ray passes
+            exactly through edges and vertices. A ray that only touches an edge or vertex either enters and
+            leaves the mesh at the same t, or does not hit the mesh.
 
         Examples
         --------
