@@ -73,7 +73,7 @@ class Hits(_Arrays):
     t_lo, t_hi : float64
         Proven bounds of t.
     point, normal : float64, three numbers each
-        In the world; the point is NaN for a miss.
+        In the world. For a miss the point is NaN and the normal zero.
     object : uint32
         Number of the object; NO_OBJECT for a miss. ``scene.names[hits.object]`` are names.
     status : uint8
@@ -111,11 +111,12 @@ class AllHits:
     Attributes
     ----------
     t : float64
-        Ray parameter, in lengths of the direction.
+        Ray parameter, in units of the direction's length.
     t_lo, t_hi : float64
         Proven bounds of t.
     point, normal : float64, three numbers each
-        In the world. Normals are outward; of a mesh, by the order of the triangle's vertices.
+        In the world. Normals are outward; of a mesh, on the side on which the triangle's vertices are
+        counter-clockwise.
     object : uint32
         Number of the object.
     part : int32
@@ -147,7 +148,7 @@ class Proofs(_Arrays):
     t_lo, t_hi : float64
         Proven bounds of t, including rounding; inf for a miss.
     allowed : float64
-        Tolerance for rounding across a plane, as a length.
+        Allowed rounding, a distance perpendicular to a plane.
     plane : float64, three numbers each
         Normal of a plane through t_lo that the object does not cross.
     checked : uint32

@@ -32,11 +32,11 @@ class Distances(_Arrays):
         velocity of its frame's origin along the world's axes, w the angular velocity about that point.
     is_ridge : (N,) bool
         With ``jac=True``: True where the derivative may not be unique, as for parallel faces; `jac_a`
-        and `jac_b` are then one of the derivatives.
+        and `jac_b` are then one of several.
     jac_error_a, jac_error_b : (N, 2) float64
         With ``jac_error=True``: bounds of the length of the error of `jac_a` and `jac_b`, for v and
-        for w;
-        inf if unknown: on ridges, for meshes, some depths, and w at surfaces of unknown curvature.
+        for w; inf if unknown: on ridges, for meshes and some depths, and for w on surfaces of unknown
+        curvature.
     """
 
     def __repr__(self):
