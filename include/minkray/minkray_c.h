@@ -281,7 +281,7 @@ typedef struct minkray_hit {
   double t_base; /* t_base + t_offset is a more precise t */
   double t_offset;
   double point[3];  /* NaN for a miss */
-  double normal[3]; /* outward unit vector; of a mesh: towards the ray. Zero unless MINKRAY_HIT */
+  double normal[3]; /* outward unit vector; of a mesh: towards the ray. Zero without a hit */
   uint32_t object;  /* or MINKRAY_NO_OBJECT */
   int32_t status;   /* a minkray_status */
   int32_t supports; /* calls of the object's support mapping */
