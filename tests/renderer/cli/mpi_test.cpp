@@ -126,8 +126,9 @@ TEST_F(Mpi, files_of_others_beside_the_tiles_stay) {
     std::ofstream(parts + name) << "\x76\x2f\x31\x01";
   const ProgramOutcome made = shell(render);
   EXPECT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_NE(made.err.find("note: a.pfm.parts is not removed: it contains more than this picture's tiles"),
-            std::string::npos)
+  EXPECT_NE(
+      made.err.find("note: a.pfm.parts is not removed: it contains more than this picture's tiles"),
+      std::string::npos)
       << made.err;
   EXPECT_EQ(tiles().size(), 1u);
   EXPECT_EQ(std::distance(fs::directory_iterator(parts), fs::directory_iterator()), 2);
