@@ -242,7 +242,7 @@ void World::closest_shapeless(const RaySpan& rays, std::span<WorldHit> closest,
   };
   const auto count = static_cast<std::uint32_t>(rays.size());
   std::vector<std::uint32_t> numbers;
-  if (instances_.meshes().size() == 1) {  // its own traversal begins with its box
+  if (instances_.meshes().size() == 1) {  // the mesh's traversal tests its box first
     numbers.resize(count);
     std::iota(numbers.begin(), numbers.end(), 0u);
     return cast_at(0, numbers);

@@ -192,7 +192,7 @@ TEST_F(GrowingPicture, what_needs_a_whole_picture_is_refused_for_parts) {
   for (const std::string flag : {"--progressive", "--tev localhost", "--denoise"}) {
     const ProgramOutcome made = render("-o a.exr --tile 1/2 " + flag);
     EXPECT_EQ(made.exit_code, 2) << flag;
-    EXPECT_NE(made.err.find("not with --tile"), std::string::npos) << made.err;
+    EXPECT_NE(made.err.find("not allowed with --tile"), std::string::npos) << made.err;
   }
   EXPECT_NE(render("-s 1 -o a.exr --denoise").err.find("at least 2 samples"), std::string::npos);
 }
