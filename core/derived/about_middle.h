@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A shape known by its support mapping, rebuilt about its own middle: its support points are
-// numbers of its own size then, wherever it is and whatever maps it is under.
+// Rebuilds a shape about its own middle. Coordinates of its support points are then no larger than
+// the shape, wherever the shape is and whatever maps apply to it.
 #pragma once
 
 #include <vector>
@@ -12,24 +12,24 @@ namespace minkray {
 
 struct AboutMiddle {
   Shape shape;
-  TwoFoldVec3<double> middle;  ///< in the frame that the map leads to
-  double loss = 0;             ///< by how much the shape may be off, a length
+  TwoFoldVec3<double> middle;  ///< position of the shape's origin in the mapped frame
+  double loss = 0;             ///< error bound of the shape's position, a length
 };
 
-/// Maps of operands become one map for each innermost shape, points are mapped one by one, and what
-/// is far from the origin of its own frame is moved there; a program's support mapping cannot be,
-/// which is a loss.
+/// Rebuilds the image of `shape` under `map`. Nested maps become one map per innermost shape, and
+/// points are mapped one by one. A shape far from the origin of its own frame is moved to that
+/// origin. This costs digits only for custom shapes, which increases `loss`.
 AboutMiddle about_middle(const Shape& shape, const ComposedMap& map);
 
-/// Bounds the error of an image of a shape that is about its origin, caused by rounding of the
-/// map's turns. A map that keeps angles may have one of those turns for free, since its effect on
-/// a shape is an epsilon of the shape's size.
+/// Bounds the error of the image of a shape around the origin, caused by rounding of the rotations
+/// in `map`. If the map scales all lengths equally (`similarity` > 0), one rotation is not counted,
+/// since its error is only an epsilon of the shape's size.
 double loss_of_turns(const Shape& shape, const ComposedMap& map, double similarity);
 
-/// The shape, moved by a vector that is not long compared with its size.
+/// Returns the shape moved by `way`, which must not be long compared with the shape's size.
 Shape moved_by(const Shape& shape, const Vec3<double>& way);
 
-/// Points under a map, about the middle of their box, which is at `middle` + `points[i]`.
+/// Points under a map, relative to the middle of their box: point i is `middle` + `points[i]`.
 struct PointsAboutMiddle {
   std::vector<Vec3<double>> points;
   Vec3<double> middle;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Minkowski sums that are rounded boxes in other words. The sum of a box and an ellipsoid along the
-// same axes is, measured in the ellipsoid's radii, the sum of a box and the unit ball.
+// Rewrites the Minkowski sum of a box and an ellipsoid along the same axes as a rounded box. In
+// units of the ellipsoid's radii, the sum is that of a box and the unit ball.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace minkray {
 
 namespace detail {
 
-/// The radii are those of ellipsoids along the axes; they are zero of other shapes.
+/// Radii of a sphere or an ellipsoid; zero for other shapes.
 inline Vec3<double> radii_of(const Shape& shape) {
   if (const auto* ball = std::get_if<Sphere>(&shape.kind))
     return Vec3<double>::Constant(ball->radius);
@@ -21,10 +21,10 @@ inline Vec3<double> radii_of(const Shape& shape) {
 
 }  // namespace detail
 
-/// The sum of a box and an ellipsoid as an affine image of a rounded box, which solvers support
-/// better; nothing for other shapes. Half the box's sizes by the radii are rounded once. Rounding
-/// of the image, as far as it is relative to size, is that of the rounded box times the
-/// ellipsoid's proportions, so those beyond 1:4 are left as they are; sizes beyond 2^+-16 as well.
+/// Returns the sum of a box and an ellipsoid as an affine image of a rounded box, which solvers
+/// support better. Returns nothing for other shapes. Also returns nothing for sizes beyond 2^+-16,
+/// and for ellipsoids of more than 1:4: the image multiplies rounding errors by the ellipsoid's
+/// proportions.
 inline std::optional<Shape> as_rounded_box(const Shape& shape) {
   constexpr double most_slender = 4.0, largest = 0x1p16;
   const auto* sum = std::get_if<MinkowskiSum>(&shape.kind);

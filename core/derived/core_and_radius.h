@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Representation of a shape for queries on pairs: a core of one of a few kinds, around a centre
-// called the middle, grown by a radius. A sphere is a point and a radius; a capsule is a segment
-// and a radius; the core of a cylinder, cone or disk is the hull of two disks. The distance of two
-// shapes is the distance of their cores minus the radii, so solvers handle only cores.
+// Represents a shape, for queries on pairs, as a core grown by a radius. The core is of one of a
+// few kinds, around a centre called the middle. A sphere is a point and a radius; a capsule is a
+// segment and a radius; the core of a cylinder, cone or disk is the hull of two disks. Two shapes
+// are as far apart as their cores, minus the radii, so solvers handle only cores.
 #pragma once
 
 #include <memory>
@@ -25,7 +25,8 @@ enum class CoreKind : unsigned char {
 struct ShapeCore {
   CoreKind kind = CoreKind::point;
   bool is_round = false;  ///< `other`, and of revolution about the z axis
-  int count = 0;  ///< number of a hull's points; the arrays are filled up to a multiple of 8
+  /// Number of a hull's points; copies of a point fill it up to a multiple of 8.
+  int count = 0;
   /// Half extents of a box; radii of an ellipsoid; for disks, x and y are the radii of the lower
   /// and the upper disk. For disks and segments, z is the half height.
   Vec3<double> size = Vec3<double>::Zero();
@@ -41,7 +42,8 @@ struct ShapeCore {
 /// Immutable and shared: copies are cheap.
 struct CoreAndRadius {
   ShapeCore core;
-  /// Rotation from the core's frame to the shape's; keeps lengths, since the core has the scales.
+  /// Rotation from the core's frame to the shape's. Keeps lengths: the core's sizes include any
+  /// scale.
   Mat3<double> turn = Mat3<double>::Identity();
   Vec3<double> middle = Vec3<double>::Zero();
   Vec3<double> middle_low = Vec3<double>::Zero();  ///< rounding error of `middle`
@@ -50,7 +52,8 @@ struct CoreAndRadius {
 
 /// Splits a shape under a map into core and radius. Removes rounding radii, affine maps that keep
 /// angles, and Minkowski sums with points and balls. Under any other map the core has the kind
-/// `other`, except points, balls and hulls, and boxes and ellipsoids scaled along their axes.
+/// `other`. Exceptions are points, balls and hulls, and boxes and ellipsoids scaled along their
+/// axes.
 CoreAndRadius core_and_radius(const Shape& shape, const Affine<double>& map = {});
 
 }  // namespace minkray

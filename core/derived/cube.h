@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A box with equal sides, for what has a flat face and no shape of its own.
+// A box with equal sides, for the part of a half-space that is near a body.
 #pragma once
 
 #include "core/shape/shape.h"
 
 namespace minkray {
 
-/// A cube around the origin, with sides of twice that length.
+/// A cube around the origin with the half extent `half`.
 inline Shape cube_of(double half) {
   return Box{Vec3<double>::Constant(half)};
 }

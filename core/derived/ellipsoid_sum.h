@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Sums of ellipsoids: a jet with its summands kept separate. The Minkowski sum of two curved
-// features is not an ellipsoid, so one ellipsoid can only osculate it; but the list of both is
-// that part of the shape exactly, h(n) = c.n + sum |F_k^T n|. Nearly every shape is the hull of
-// finitely many of these.
+// Jets that are sums of ellipsoids, stored as a list. The Minkowski sum of two curved features is
+// not an ellipsoid, so a single ellipsoid can only osculate it. The list represents the sum
+// exactly, with h(n) = c.n + sum |F_k^T n|. Nearly every shape is the hull of finitely many such
+// sums.
 #pragma once
 
 #include <array>
@@ -13,30 +13,32 @@
 
 namespace minkray {
 
-/// { c + sum F_k b_k : |b_k| <= 1 }, the part that touches in one requested direction n.
+/// The points { c + sum F_k b_k : |b_k| <= 1 }: the part of a shape with the support point in
+/// direction n.
 template <class W>
 struct EllipsoidSum {
-  /// More are joined into one that osculates.
+  /// Maximum number of ellipsoids. Further ones are joined with the last one, which then osculates.
   static constexpr std::size_t most = 4;
 
   Vec3<W> c = Vec3<W>::Zero();
   std::array<Mat3<W>, most> F = {Mat3<W>::Zero(), Mat3<W>::Zero(), Mat3<W>::Zero(),
                                  Mat3<W>::Zero()};  ///< columns may be zero
-  std::size_t used = 0;                             ///< those from here on are zero in all lanes
-  Mask<W> exact = Mask<W>(true);                    ///< part of the shape, not only osculating
+  std::size_t used = 0;                             ///< F is zero from this index on
+  Mask<W> exact = Mask<W>(true);                    ///< the sum is part of the shape
   Vec3<W> s = Vec3<W>::Zero();                      ///< the shape's support point in direction n
-  /// If it is exact, c; else the common part of all the ellipsoids that osculate one patch.
+  /// If `exact`, the same as c. Otherwise the centre of the jets, which is the same for all
+  /// ellipsoids that osculate one patch.
   Vec3<W> patch = Vec3<W>::Zero();
 
-  /// Support function along n, in lengths of n.
+  /// Support function h(n), for n of any length.
   W support_function(const Vec3<W>& n) const {
     W reach = c.dot(n);
     for (std::size_t k = 0; k < used; ++k) reach += (F[k].transpose() * n).norm();
     return reach;
   }
 
-  /// Adds an ellipsoid. Ellipsoids of the same proportions become one. Each lane decides for
-  /// itself, so that none depends on the others.
+  /// Adds the ellipsoid with the factor `other`. Ellipsoids of the same proportions become one.
+  /// Each lane decides separately, so that no lane depends on the others.
   void add(const Mat3<W>& other, const Vec3<W>& n) {
     Mask<W> left = other.cwiseAbs().sum() > W(0);
     for (std::size_t k = 0; k < most && any(left); ++k) {
@@ -59,7 +61,7 @@ struct EllipsoidSum {
   }
 };
 
-/// Lane by lane.
+/// Selects a where the condition is true, else b, lane by lane.
 template <class W>
 EllipsoidSum<W> select(const Mask<W>& condition, const EllipsoidSum<W>& a,
                        const EllipsoidSum<W>& b) {
@@ -91,7 +93,8 @@ EllipsoidSum<W> touching_sum(const Shape& shape, const Vec3<W>& n);
 
 namespace detail {
 
-/// The shape's jets are ellipsoids. Those that only osculate are moved to touch the shape.
+/// For shapes whose jets are ellipsoids. An ellipsoid that only osculates is moved so that it
+/// touches the shape at the support point.
 template <class W, class S>
 EllipsoidSum<W> sum_of_kind(const S& shape, const Vec3<W>& n) {
   const Jet<W> jet = shape.jet(n);
@@ -155,20 +158,20 @@ EllipsoidSum<W> sum_of_kind(const Transform& moved, const Vec3<W>& n) {
 
 }  // namespace detail
 
-/// The part of the shape that it touches its supporting plane of direction n with.
+/// Returns the part of the shape that touches the supporting plane with the normal n.
 template <class W>
 EllipsoidSum<W> touching_sum(const Shape& shape, const Vec3<W>& n) {
   return std::visit([&](const auto& kind) { return detail::sum_of_kind<W>(kind, n); }, shape.kind);
 }
 
-/// True if the shape is the hull of such sums, judged by a few directions.
+/// True if the shape is the hull of exact sums. Tests only a few directions.
 inline bool has_exact_sums(const Shape& shape) {
   for (int i = 0; i < tilted_directions; ++i)
     if (!touching_sum<double>(shape, tilted_direction<double>(i)).exact) return false;
   return true;
 }
 
-/// True if the shape is one such sum, without flat summands, judged by a few directions.
+/// True if the shape is a single exact sum without flat summands. Tests only a few directions.
 inline bool is_ellipsoid_sum(const Shape& shape) {
   const EllipsoidSum<double> first = touching_sum<double>(shape, tilted_direction<double>(0));
   if (first.used == 0) return false;

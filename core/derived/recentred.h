@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Shapes whose support points would be rounded to how far away they are, brought to where they are
-// rounded to the shape's own size. Translations inside of sums, differences, hulls and nests of
-// maps are taken out and added up in twice the digits.
+// Moves a shape to the origin if its support points are so far away that their rounding is large
+// compared with the shape. Removes translations inside of sums, differences, hulls and nested maps,
+// and adds them up with twice the digits.
 #pragma once
 
 #include <optional>
@@ -11,26 +11,27 @@
 
 namespace minkray {
 
-/// The given shape is this one, moved by `moved`, but for roundings of this one's size.
+/// The given shape equals `shape` moved by `moved`, up to rounding relative to the size of `shape`.
 struct Recentred {
   Shape shape;
   TwoFoldVec3<double> moved;
-  double loss = 0.0;  ///< a bound of what rounding maps' entries may have moved it by
+  double loss = 0.0;  ///< error bound of `moved`, due to rounded entries of maps
 };
 
-/// A bound of how much longer the map makes vectors; of a rotation, 1 but for rounding.
+/// Upper bound of the factor by which the map lengthens vectors; for a rotation, 1 up to rounding.
 double stretch_of(const Mat3<double>& linear);
 
-/// Bounds the displacement of a point at this distance by rounding of a map's entries. Scales and
-/// swaps of axes are exact; other maps may have been made of a quaternion.
+/// Bounds the displacement of a point at this distance from the origin by rounding of a map's
+/// entries. Scales and swaps of axes are exact; other maps may have been computed from a
+/// quaternion.
 double loss_of_turning(const Mat3<double>& linear, double distance);
 
-/// Moves a shape, if its support points are made of coordinates much larger than itself; it returns
-/// nothing for others.
+/// Moves a shape if its support points are computed from coordinates much larger than the shape.
+/// Returns nothing for other shapes.
 std::optional<Recentred> recentred(const Shape& shape);
 
-/// A bound of all coordinates that a support point is made of, as a length. Custom shapes have
-/// those of their support points.
+/// Upper bound of the lengths of all vectors that are summed in a support point. For custom shapes,
+/// these are the support points.
 double largest_coordinate(const Shape& shape);
 
 }  // namespace minkray

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Two meshes made from a shape's support mapping alone: a ray meets the outer mesh no later than
-// the shape, and the shape no later than the inner one. Inner: the hull of support points. Outer:
-// the intersection of the half-spaces that those supports bound. Polytopes are exact: half of the
-// directions are facet normals of the hull of the other half's supports.
+// Makes two meshes from a shape's support mapping alone. A ray meets the outer mesh no later than
+// the shape, and the shape no later than the inner mesh. The inner mesh is the hull of support
+// points; the outer mesh is the intersection of their half-spaces. Half of the directions are facet
+// normals of the hull of the first half's support points, so polytopes are exact.
 #pragma once
 
 #include <array>
@@ -22,20 +22,20 @@ struct Mesh {
 struct SandwichOptions {
   /// Number of quasi-uniform directions to begin with.
   int directions = 500;
-  /// Least distance of the outer mesh outside of the shape, and of the inner one within it, in
-  /// units of the frame: room for the rounding of programs that read the meshes.
+  /// Least distance of both meshes from the surface of the shape, in units of the frame. Allows for
+  /// the rounding of programs that read the meshes.
   double margin = 0x1p-20;
   /// Shapes thinner than this, relative to their size, count as flat.
   double flatness = 0x1p-20;
 };
 
-/// The meshes are in `frame`, where the shape spans about [-1, 1] along every axis of its rank, and
-/// a ray keeps its parameter (frames are affine).
+/// The meshes are in `frame`, where the shape spans about [-1, 1] along each of the first `rank`
+/// axes. The frame is affine, so the parameter t of a ray is the same in it.
 ///
-/// frame.rank 3: closed surfaces. Rank 2 (disks, triangles, flat hulls): polygons in the shape's
-/// plane, `outer` not around the shape but around it within the plane, so that both halves apply,
-/// and both give the same parameter. Rank 1 and 0 (segments, points): no surface fits in, `inner`
-/// is empty; `outer` is a box that is `margin` wide, whose misses must be misses.
+/// Rank 3: both meshes are closed surfaces. Rank 2 (disks, triangles, flat hulls): both are
+/// polygons in the plane of the shape, so a ray has the same t in both; in that plane, `outer`
+/// contains the shape. Rank 1 or 0 (segments, points): `inner` is empty, since no surface fits
+/// inside; `outer` is a box of width `margin`, and rays that miss the box must miss the shape.
 struct Sandwich {
   RoundFrame frame;
   Vec3<double> centre;  ///< a point well inside, in the frame

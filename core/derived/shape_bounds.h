@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bounds of a shape, from its support mapping alone: two supports an axis.
+// Bounds of a shape, from its support mapping alone: two support points per axis.
 #pragma once
 
 #include "core/math/bounds.h"
@@ -7,7 +7,7 @@
 
 namespace minkray {
 
-/// The tightest axis-aligned box, exact up to the rounding of the supports.
+/// The tightest axis-aligned box, exact up to the rounding of the support points.
 template <class T = double, class S>
 requires SupportMapped<S, T> Bounds<T> bounds_of(const S& shape) {
   Bounds<T> bounds;
@@ -19,8 +19,8 @@ requires SupportMapped<S, T> Bounds<T> bounds_of(const S& shape) {
   return bounds;
 }
 
-/// The ball around the box of `bounds_of`. Padded by a few ulps, so that rounding never leaves a
-/// part of the shape outside.
+/// The ball around the box of `bounds_of`. Padded by a few ulps, so that the ball contains the
+/// shape in spite of rounding.
 template <class T>
 Ball<T> ball_around(const Bounds<T>& bounds) {
   constexpr T padding = T(1) + T(8) * std::numeric_limits<T>::epsilon();

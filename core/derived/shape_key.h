@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds equal shapes, so that they can share what is derived from them.
+// Finds equal shapes, so that they can share data computed from them.
 #pragma once
 
 #include <cstdint>
@@ -9,11 +9,11 @@
 
 namespace minkray {
 
-/// The kinds and the bits of all numbers of a shape, in order: equal keys are equal shapes.
-/// Functions of programs are equal if they are the same object.
+/// Returns the kinds and the bits of all numbers of a shape, in order. Shapes with equal keys are
+/// equal. The key of a custom shape contains the address of its SupportSource.
 std::vector<std::uint64_t> key_of(const Shape& shape);
 
-/// FNV-1a over the words.
+/// FNV-1a hash of a key.
 std::size_t hash_of(const std::vector<std::uint64_t>& key);
 
 }  // namespace minkray

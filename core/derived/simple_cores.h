@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cores made of plain numbers: points, segments, hulls of points, disks.
+// Makes the simple cores: points, segments, hulls of points, disks.
 #pragma once
 
 #include <algorithm>
@@ -10,10 +10,10 @@
 
 namespace minkray::cores {
 
-/// A box's and ellipsoid's balls are rounded up, so that they hold what they should.
+/// Factor by which radii of balls are rounded up, so that the balls contain their cores.
 inline constexpr double padding = 1 + 16 * std::numeric_limits<double>::epsilon();
 
-/// `loss` is by how much the middle may be off.
+/// `loss` is an error bound of the middle.
 inline CoreAndRadius placed(ShapeCore core, const Mat3<double>& turn,
                             const TwoFoldVec3<double>& middle, double loss) {
   core.rounding += loss;

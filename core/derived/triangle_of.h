@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A part of a mesh as a shape of its own.
+// Makes a shape of a triangle of a mesh.
 #pragma once
 
 #include "core/shape/shape.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The convex hull of points, and the polytope that is the intersection of half-spaces (the dual
-// problem). Uses Qhull for solid hulls (Barber, Dobkin and Huhdanpaa, "The Quickhull Algorithm for
-// Convex Hulls", 1996; only convex_hull.cpp includes it), and Andrew's monotone chain (1979) for
-// flat hulls.
+// Computes the convex hull of points, and the vertices of an intersection of half-spaces (the dual
+// problem). Solid hulls use Qhull (Barber, Dobkin and Huhdanpaa, "The Quickhull Algorithm for
+// Convex Hulls", 1996), which only convex_hull.cpp includes. Flat hulls use Andrew's monotone chain
+// (1979).
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace minkray {
 
 /// Polygons as consecutive lists of indices.
 struct Polygons {
-  std::vector<std::uint32_t> begin = {0};  ///< begin of each polygon's corners; then the end
+  std::vector<std::uint32_t> begin = {0};  ///< first corner of each polygon; then the end
   std::vector<std::uint32_t> corners;
 
   std::size_t size() const { return begin.size() - 1; }
@@ -34,7 +34,7 @@ struct Polygons {
 struct RoundFrame {
   Vec3<double> origin = Vec3<double>::Zero();    ///< one of the points
   Mat3<double> axes = Mat3<double>::Identity();  ///< columns of unit length
-  Vec3<double> extents = Vec3<double>::Ones();   ///< along the axes; 1 beyond the rank
+  Vec3<double> extents = Vec3<double>::Ones();   ///< along the axes; 1 instead of 0
   int rank = 0;  ///< 3 solid, 2 in a plane, 1 on a line, 0 a single point
 
   /// Converts a point to the frame, where the set spans about [-1, 1] along each axis.
@@ -55,16 +55,16 @@ struct ConvexHull {
   /// The extreme points, as ascending indices into the input. Equal points are kept once.
   std::vector<std::uint32_t> vertices;
   /// Rank 3: the facets, counter-clockwise from outside, with coplanar neighbours merged. Rank 2:
-  /// the polygon, once. Corners are positions in `vertices`.
+  /// one polygon. Corners are indices into `vertices`.
   Polygons facets;
 
   int rank() const { return frame.rank; }
 };
 
 /// Returns the hull of one or more finite points. A set thinner than the rounding of its
-/// coordinates counts as flat. Otherwise a point is omitted only if it lies in the hull of the
-/// others, up to rounding. Throws std::runtime_error if Qhull fails, or if the points' distances
-/// exceed the range of numbers.
+/// coordinates counts as flat. For other sets, a point is omitted only if it lies in the hull of
+/// the others, up to rounding. Throws std::runtime_error if Qhull fails, or if distances between
+/// the points overflow.
 ConvexHull convex_hull(std::span<const Vec3<double>> points);
 
 /// The points x with normal.x <= offset.
@@ -74,7 +74,7 @@ struct HalfSpace {
 };
 
 /// Returns the vertices of a bounded intersection of half-spaces. `interior` must be clearly inside
-/// all half-spaces. Half-spaces that do not touch the intersection are allowed. Throws
+/// all half-spaces. Half-spaces whose planes do not touch the intersection are allowed. Throws
 /// std::runtime_error if Qhull fails or the intersection is not bounded.
 std::vector<Vec3<double>> intersection_vertices(std::span<const HalfSpace> half_spaces,
                                                 const Vec3<double>& interior);

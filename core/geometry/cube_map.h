@@ -14,7 +14,7 @@ class CubeMap {
   struct Cell {
     int axis;            ///< axis of the face: that of the largest component
     double sign;         ///< sign of that component
-    double u, v, width;  ///< from u to u + width in the component after `axis`, v in the next one
+    double u, v, width;  ///< next two components / largest: [u, u + width], [v, v + width]
   };
 
   /// Makes about this many cells, but no more than float can count.
@@ -32,8 +32,9 @@ class CubeMap {
             -1 + width * static_cast<double>(cell % resolution_), width};
   }
 
-  /// Returns the index, an integer, of the cell of a direction n of any length. Within a few
-  /// roundings of an edge, a neighbouring cell may be returned. NaN gets any cell.
+  /// Returns the index (an integer) of the cell that contains the direction n, of any length. If n
+  /// is within a few roundings of a cell's edge, the index may be that of the neighbouring cell.
+  /// NaN gets any cell.
   template <class W>
   W cell_of(const Vec3<W>& n) const {
     using std::abs;
@@ -47,7 +48,7 @@ class CubeMap {
     const W side = W(static_cast<T>(resolution_)), last = side - W(1);
     const auto index = [&](const W& component) {
       W scaled = (component / size + W(1)) * (W(T(0.5)) * side);
-      scaled = select(scaled > W(0), scaled, W(0));  // in this order: NaN becomes 0
+      scaled = select(scaled > W(0), scaled, W(0));  // this order of operands turns NaN into 0
       return whole(select(scaled < last, scaled, last));
     };
     const W face = by_axis(W(0), W(2), W(4)) + select(largest < W(0), W(1), W(0));

@@ -22,15 +22,15 @@ class FacetMesh {
  public:
   class Facet {
    public:
-    /// Indices of the first number of the three corners, of the three neighbours, of the normal,
-    /// and of the flag that is 1 if the facet is supported.
+    /// Positions in the facet's row of numbers: the three corners, the three neighbours, the
+    /// normal, and a flag that is 1 if the facet is supported.
     static constexpr std::size_t corners = 0, neighbours = 9, normals = 12, supported = 15;
     static constexpr std::size_t size = 16;
 
     Facet() = default;
     explicit Facet(const std::array<Vec3<double>, 3>& counter_clockwise);
 
-    /// Counter-clockwise from outside.
+    /// Corners are counter-clockwise from outside.
     Vec3<double> corner(std::size_t k) const { return vector_at(corners + 3 * k); }
     /// Outward normal of unit length; zero for a triangle without area.
     Vec3<double> normal() const { return vector_at(normals); }
@@ -39,8 +39,8 @@ class FacetMesh {
       return static_cast<std::size_t>(numbers_[neighbours + k]);
     }
     /// True if no vertex of the hull reaches further along the normal than corner 0, and the other
-    /// corners reach as far up to rounding. The facet must also be so thick that rounding does not
-    /// decide if a line passes through it.
+    /// corners reach equally far up to rounding. A supported facet is also thick enough that
+    /// rounding does not decide whether a line passes through it.
     bool is_supported() const { return numbers_[supported] != 0.0; }
 
    private:
@@ -81,8 +81,7 @@ class FacetMesh {
     }
   }
 
-  /// False for a hull that is thinner than the rounding of its points, since its facets are then
-  /// meaningless.
+  /// False for a hull that is thinner than the rounding of its points: its facets are meaningless.
   bool is_supported() const {
     return std::any_of(facets_.begin(), facets_.end(),
                        [](const Facet& facet) { return facet.numbers_[Facet::supported] > 0.0; });
@@ -91,8 +90,8 @@ class FacetMesh {
   const Facet& operator[](std::size_t i) const { return facets_[i]; }
   std::size_t size() const { return facets_.size(); }
 
-  /// Returns the index of a facet whose normal is near the direction n, of any length. NaN gets any
-  /// facet.
+  /// Returns the index of a facet whose normal is near the direction n, which may have any length.
+  /// NaN gets any facet.
   template <class W>
   W facing(const Vec3<W>& n) const {
     return lookup<W>(directions_.cell_of(n),
@@ -111,8 +110,9 @@ class FacetMesh {
   }
 
  private:
-  /// In units of the largest coordinate: a few roundings of a reach, and many of a corner's place
-  /// in the ray's frame.
+  /// Tolerances relative to the largest coordinate. `uneven`: a few rounding errors of a corner's
+  /// reach along the normal. `thin`: many rounding errors of a corner's position in the ray's
+  /// frame.
   static constexpr double uneven = 16 * std::numeric_limits<double>::epsilon();
   static constexpr double thin = 64 * std::numeric_limits<double>::epsilon();
 

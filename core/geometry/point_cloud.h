@@ -17,8 +17,8 @@ namespace minkray {
 class PointCloud {
  public:
   PointCloud() = default;
-  /// Requires at least one point; all points must be finite. `source` is the name of their mesh
-  /// file, if any.
+  /// Requires at least one point; all points must be finite. `source` is the name of the mesh file
+  /// that the points are from, if any.
   explicit PointCloud(std::vector<Vec3<double>> points, std::string source = {});
 
   /// The extreme points, in the order in which they were given.
@@ -33,7 +33,7 @@ class PointCloud {
     return support_where(Mask<W>(true), n);
   }
 
-  /// Returns support points in the `wanted` lanes, and any of the points in others.
+  /// Returns support points in the `wanted` lanes, and any point of the cloud in the other lanes.
   template <class W>
   Vec3<W> support_where(const Mask<W>& wanted, const Vec3<W>& n) const {
     if constexpr (std::floating_point<W>)

@@ -9,8 +9,8 @@
 
 namespace minkray {
 
-/// Inverse of an invertible matrix of any scale. Divides the matrix by a power of two first, so
-/// that its determinant is in range.
+/// Returns the inverse of an invertible matrix. Divides the matrix by a power of two first, so that
+/// the determinant neither overflows nor underflows.
 template <class T>
 Mat3<T> inverse_of(const Mat3<T>& linear) {
   int exponent = 0;
@@ -20,7 +20,7 @@ Mat3<T> inverse_of(const Mat3<T>& linear) {
 }
 
 /// True if the rows have unit length and are perpendicular, up to a few roundings. The transpose is
-/// then as accurate an inverse as inverse_of.
+/// then as accurate as the result of inverse_of.
 template <class T>
 bool keeps_lengths(const Mat3<T>& linear) {
   constexpr T rounding = T(4) * std::numeric_limits<T>::epsilon();

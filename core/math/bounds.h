@@ -15,8 +15,8 @@ struct Bounds {
   bool empty() const { return !(lower.array() <= upper.array()).all(); }
   Vec3<T> centre() const { return lower * T(0.5) + upper * T(0.5); }
   Vec3<T> half_extents() const { return upper * T(0.5) - lower * T(0.5); }
-  /// Half extents of a box around centre() that contains this box in spite of the centre's
-  /// rounding.
+  /// Returns half extents of a box around centre() that contains this box, although centre() is
+  /// rounded.
   Vec3<T> reach_of_centre() const {
     const Vec3<T> middle = centre();
     return (upper - middle).cwiseMax(middle - lower);

@@ -81,8 +81,8 @@ void transpose(const std::array<const Lane<W>*, LaneOf<W>::count>& rows, W* colu
 
 }  // namespace detail
 
-/// Returns the first `count` numbers (a multiple of 4) of the row with this index, a small integer.
-/// Row 0 begins at `table`; rows are `row_size` numbers apart.
+/// Returns the first `count` numbers of the row `index`. `count` must be a multiple of 4, `index` a
+/// small integer. Row 0 begins at `table`; rows are `row_size` numbers apart.
 template <std::size_t count, std::floating_point W>
 std::array<W, count> gather_row(W index, const W* table, std::size_t row_size) {
   std::array<W, count> columns;

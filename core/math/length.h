@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lengths of vectors, including vectors whose squares underflow or overflow. For other vectors as
-// fast as norm().
+// Lengths of vectors, including vectors whose squared length underflows or overflows. For all other
+// vectors, these functions are as fast as norm().
 #pragma once
 
 #include <cmath>
@@ -10,8 +10,8 @@
 
 namespace minkray {
 
-/// True if squares of the components that matter are normal numbers, as for unit()
-/// (core/math/vec.h).
+/// True if the squares of all components that affect the length are normal numbers. unit()
+/// (core/math/vec.h) uses the same limits.
 template <class T>
 bool is_ordinary_square(T squared) {
   constexpr T smallest = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon() * T(16);
@@ -25,7 +25,7 @@ T length_of(const Vec3<T>& v) {
   return is_ordinary_square(squared) ? std::sqrt(squared) : v.stableNorm();
 }
 
-/// Takes expressions, which are evaluated first.
+/// Accepts Eigen expressions, too, which are evaluated first.
 inline double length_of(const Vec3<double>& v) {
   return length_of<double>(v);
 }

@@ -18,7 +18,8 @@ T sum_or_less(T a, T b) {
   return sum.low < T(0) ? lower : sum.high;
 }
 
-/// Returns a number that is at least a + b, rounded in the same way.
+/// Returns a number that is at least a + b: equal if a + b is a number of T, otherwise greater by
+/// at most two roundings.
 template <class T>
 T sum_or_more(T a, T b) {
   return -sum_or_less(T(-a), T(-b));

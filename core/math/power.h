@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Powers of nonnegative numbers with the same bits for one number and for a packet. The C library's
-// pow does not guarantee this, and its long double logarithm differs between processors. The error
-// of a power is a few epsilon if the logarithm is of moderate size. For small powers the relative
-// error grows, but the absolute error stays a few epsilon.
+// Powers of nonnegative numbers. Results for single numbers and for packets are bit-identical,
+// which the C library's pow does not guarantee: its long double logarithm differs between
+// processors. The relative error is a few epsilon, unless the power is small. Then the relative
+// error grows, but the absolute error is still a few epsilon.
 #pragma once
 
 #include "core/math/vec.h"
@@ -49,7 +49,7 @@ W exp2_of(const W& x) {
   constexpr T least = T(std::numeric_limits<T>::min_exponent - 1);
   constexpr T most = T(std::numeric_limits<T>::max_exponent - 1);
   const W bounded = min(max(x, W(least)), W(most));
-  // Rounds to the nearest integer, via numbers without fractional digits.
+  // Rounds to the nearest integer: adds and subtracts a number so large that sums have no fraction.
   constexpr T no_fraction = T(1.5) / std::numeric_limits<T>::epsilon();
   const W k = (bounded + W(no_fraction)) - W(no_fraction);
   const W y = (bounded - k) * W(ln2);
@@ -59,13 +59,13 @@ W exp2_of(const W& x) {
   return select(x < W(least), W(0), W(series * two_to(k)));
 }
 
-/// base^exponent for 0 <= base; 0^exponent is 0 unless the exponent is 0. The exponent may be
+/// base^exponent for base >= 0; 0^exponent is 0 unless the exponent is 0. The exponent may be
 /// infinite.
 template <class W>
 W power(const W& base, Lane<W> exponent) {
   using T = Lane<W>;
   if (exponent == T(0)) return W(1);
-  // Integer exponents by multiplication, roots by square roots: these are common and cheap.
+  // Small integer exponents need only products, some fractions only square roots. Both are common.
   constexpr T most_by_hand = T(16);
   if (exponent > T(0) && exponent <= most_by_hand && exponent == std::floor(exponent)) {
     int left = static_cast<int>(exponent);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Numbers, vectors and maps with twice the digits (two-fold), each stored as an unevaluated sum of
-// two. Used for differences of positions that are far from the origin. The error-free sums and
-// products are those of Knuth and Dekker (Dekker, "A Floating-Point Technique for Extending the
-// Available Precision", 1971). The error of sums of terms as large as x is 2^-104 x.
+// Numbers, vectors and maps with twice the digits ("two-fold"). Each number is stored as an
+// unevaluated sum of two numbers. Used for differences of positions far from the origin. Error-free
+// sums and products are from Dekker, "A Floating-Point Technique for Extending the Available
+// Precision", 1971. A sum of terms of size x has an error of 2^-104 x.
 #pragma once
 
 #include <cmath>
@@ -120,15 +120,15 @@ TwoFoldMat3<T> operator*(const TwoFoldMat3<T>& a, const TwoFoldMat3<T>& b) {
   return product;
 }
 
-/// Image of a point under a map with exactly the given numbers.
+/// Image of a point under a map whose numbers are taken as exact.
 template <class T>
 TwoFoldVec3<T> image_of(const Affine<T>& map, const TwoFoldVec3<T>& point) {
   return TwoFoldMat3<T>(map.linear) * point + TwoFoldVec3<T>(map.translation);
 }
 
-/// Inverse of an invertible matrix, by Newton's iteration from the inverse in T. Each entry is
-/// rounded about once, for any condition number. If the inverse in T has no correct digit, some
-/// entries of the result may be NaN.
+/// Inverse of an invertible matrix, by Newton's iteration from the inverse in T. The error of each
+/// entry is about one rounding, for any condition number. If the inverse in T has no correct digit,
+/// some entries of the result may be NaN.
 template <class T>
 Mat3<T> accurate_inverse(const TwoFoldMat3<T>& m) {
   // A step squares the error, so at least half of the digits must be correct before the last step.
@@ -158,8 +158,8 @@ Mat3<T> accurate_inverse(const TwoFoldMat3<T>& m) {
     if (largest <= half_the_digits) return inverse.high;
     if (largest < T(1)) continue;
     if (is_pivoted) break;
-    // The error of cofactors is proportional to the square of the condition number, that of pivoted
-    // elimination to the condition number.
+    // Pivoted elimination has an error proportional to the condition number. The error of cofactors
+    // is proportional to its square.
     is_pivoted = true;
     inverse = TwoFoldMat3<T>(Mat3<T>(m.high.fullPivLu().inverse()));
   }

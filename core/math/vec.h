@@ -26,7 +26,7 @@ using Vec = Eigen::Matrix<W, Dim, 1>;
 template <class W>
 using Mat3 = Eigen::Matrix<W, 3, 3>;
 
-/// The type of one lane of W (W itself unless W is a packet, core/math/wide.h), the type of
+/// Gives the type of one lane of W (W itself unless W is a packet, core/math/wide.h), the type of
 /// comparison results, and the number of lanes.
 template <class W>
 struct LaneOf {
@@ -69,7 +69,7 @@ W leading_power_of_two(W x) {
   }
 }
 
-/// Returns k for 2^k, a normal number.
+/// Returns k for the argument 2^k, which must be a normal number.
 template <std::floating_point W>
 W exponent_of(W power_of_two) {
   if constexpr (sizeof(W) > sizeof(double)) {
@@ -77,7 +77,7 @@ W exponent_of(W power_of_two) {
     std::frexp(power_of_two, &exponent);
     return W(exponent - 1);
   } else {
-    // Puts the exponent's bits at the end of a number whose last digit is worth 1.
+    // Makes the exponent's bits the last digits of a number whose last digit is worth 1.
     using Bits = std::conditional_t<sizeof(W) == 4, std::uint32_t, std::uint64_t>;
     constexpr int digits = std::numeric_limits<W>::digits - 1;
     constexpr W ones = W(1) / std::numeric_limits<W>::epsilon();
@@ -110,7 +110,7 @@ Vec3<W> select(const Mask& condition, const Vec3<W>& a, const Vec3<W>& b) {
 
 namespace detail {
 
-/// Same as `unit`, for zero and for vectors whose squared length leaves the range of W.
+/// Implements `unit` for the zero vector and for squared lengths that leave the range of W.
 template <class W>
 [[gnu::noinline, gnu::cold]] Vec3<W> unit_rescaled(const Vec3<W>& v, const Mask<W>& ordinary) {
   using std::abs;
@@ -150,7 +150,7 @@ W lookup(W index, NumberOf&& number_of) {
   return number_of(static_cast<std::size_t>(index));
 }
 
-/// Rounds towards zero; for small numbers that are not negative.
+/// Rounds towards zero. The number must be small and not negative.
 template <std::floating_point W>
 W whole(W x) {
   return static_cast<W>(static_cast<int>(x));

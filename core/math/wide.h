@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// A packet of numbers: the scalar of packets of rays. Uses the compiler's vector types, so the same
-// source compiles for every instruction set. `Isa` names the instruction set that the including
-// file is compiled for. As `Isa` is a part of the type, functions for different instruction sets
-// have different names, and the linker cannot confuse them (docs/decisions/packets.md).
+// A packet of numbers: the scalar type of packets of rays. Uses the compiler's vector types, so the
+// same source compiles for every instruction set. `Isa` names the instruction set that the
+// including file is compiled for. `Isa` is part of the type, so functions for different instruction
+// sets have different names, and the linker cannot confuse them (docs/decisions/packets.md).
 #pragma once
 
 #if defined(__AVX2__)
@@ -38,7 +38,7 @@ template <class T, int N, class Isa>
 struct WideMask {
   using Lanes __attribute__((vector_size(N * sizeof(T)))) = T;
   using Bits = decltype(Lanes() < Lanes());  ///< all bits of a lane, or none
-  // Depends on T.
+  // std::uint64_t, as a type that depends on T: otherwise the compiler ignores vector_size.
   using Word = std::conditional_t<std::is_arithmetic_v<T>, std::uint64_t, T>;
   using Words __attribute__((vector_size(N * sizeof(T)))) = Word;
   Bits bits;
@@ -136,8 +136,8 @@ struct Wide {
   friend Wide select(const Mask& condition, const Wide& a, const Wide& b) {
     return Wide(condition.bits ? a.lanes : b.lanes);
   }
-  /// Same as std::min and std::max: return a if one is NaN, or for zeros of different signs.
-  /// Machine instructions then return their second argument, so b comes first in the comparison.
+  /// Same as std::min and std::max: return a if either number is NaN, or for zeros of different
+  /// signs. Machine instructions return their second operand in these cases, so b is passed first.
   friend Wide min(const Wide& a, const Wide& b) {
 #if defined(__AVX2__)
     if constexpr (sizeof(Lanes) == 32 && sizeof(T) == 4)
@@ -217,8 +217,8 @@ struct Wide {
  private:
   using Bits = typename Mask::Bits;
   static constexpr int mantissa_bits = std::numeric_limits<T>::digits - 1;
-  /// `ones`: the least power of two from which on numbers have no fractional digits. `bias`: that
-  /// of stored exponents.
+  /// `ones`: numbers from 2^(digits - 1) on have no fraction; this is the least of them. `bias`:
+  /// stored exponents are larger than the true ones by this number.
   static constexpr T ones = T(1) / std::numeric_limits<T>::epsilon();
   static constexpr T bias = T(std::numeric_limits<T>::max_exponent - 1);
   static Wide sign_bit() {

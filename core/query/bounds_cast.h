@@ -10,8 +10,9 @@
 
 namespace minkray {
 
-/// A ray's line relative to the middle of a shape's bounds, in the shape's frame. The sizes are
-/// sums of the absolute values of the summands; rounding is relative to them.
+/// A ray's line relative to the middle of a shape's bounds, in the shape's frame. `origin_size` and
+/// `direction_size` are sums of the absolute values of the summands that gave the vector; rounding
+/// is relative to these sums.
 template <class W>
 struct LineFromCentre {
   Vec3<W> origin, direction;
@@ -63,9 +64,9 @@ template <class W>
   return result;
 }
 
-/// Casts the open lanes of `bounds` at the bounding ball; the ray must be relative to its centre.
-/// Rays miss if they pass by the ball, end before the ball or begin behind it. Lanes are closed,
-/// but no miss, if the ray has no direction or the shape has no size.
+/// Casts the open lanes of `bounds` at the bounding ball; the ray must be relative to the ball's
+/// centre. A ray misses if it passes the ball, ends before the ball or begins behind it. If the ray
+/// has no direction, or the shape no size, the lane is closed without a miss.
 template <class W>
 void cast_at_ball(const RayNearBall<W>& near, Lane<W> R, BoundsCast<W>& bounds) {
   using std::max;

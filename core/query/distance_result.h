@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Result of a distance query: the distance and its lower bound, the closest points, the plane that
-// proves it, and its cost.
+// Result of a distance query: the distance, its lower bound and the plane that proves this bound,
+// the closest points, and the cost.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 namespace minkray {
 
 enum class DistanceStatus : unsigned char {
-  separated,    ///< a plane lies between the two; distance > 0
+  separated,    ///< a plane lies between A and B; distance > 0
   overlapping,  ///< a common point was found, to within rounding; distance 0
   exhausted,    ///< the solver did not converge; the distance lies in [lower, distance]
 };
@@ -34,8 +34,8 @@ struct DistanceResult {
   DistanceStatus status = DistanceStatus::exhausted;
   T distance = T(0);  ///< |v|, the distance of the two points: an upper bound, up to rounding
   T lower = T(0);     ///< max v.w/|v|, the gap between two parallel planes
-  /// The paper's |v|^2 - v.w, an upper bound of |v - v(A - B)|^2, which may be infinite. 0 if
-  /// overlapping.
+  /// |v|^2 - v.w, an upper bound of the squared distance of v from the point v(A - B) that it
+  /// approximates (van den Bergen, 2004). May be infinite; 0 if overlapping.
   T certificate = T(0);
   Vec<T, Dim> point_a = Vec<T, Dim>::Zero();  ///< in A, closest to B; overlapping: in both
   Vec<T, Dim> point_b = Vec<T, Dim>::Zero();  ///< in B, closest to A; overlapping: in both
@@ -46,7 +46,8 @@ struct DistanceResult {
   int backups = 0;  ///< number of times the distance subalgorithm fell back on its backup procedure
 };
 
-/// One iteration of the distance algorithm, in the paper's letters with C = {x} - (A - B).
+/// One iteration of the distance algorithm, in the letters of van den Bergen (2004), for C = {x} -
+/// (A - B).
 template <class T, int Dim>
 struct DistanceIteration {
   Vec<T, Dim> v;                        ///< the direction of the support call

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Input and output of closed forms: a line relative to a nearby point, and the point where the line
-// enters, with an error bound (docs/forms.md, "Casts with an error bound"). W is double, or a
-// packet of doubles with one line per lane and the same bits as single lines. Or W is a packet of
-// floats, for screening candidates (core/screen/screen.h); such packets may also have one form per
-// lane.
+// enters, with an error bound (docs/forms.md, "Casts with an error bound"). W is double or a packet
+// of doubles, with one line per lane and bit-identical results. W may also be a packet of floats,
+// to screen candidates (core/screen/screen.h); each lane may then have its own form.
 #pragma once
 
 #include "core/math/least_to_square.h"
@@ -20,15 +19,15 @@ struct Line {
   /// Bounds the error of the line's points with |t| |d| up to the form's size, across the line and
   /// along it. Includes the rounding of s and of a form's operations.
   W E;
-  /// A component of d counts as zero if its square is below this: it moves the line by less than
-  /// E / 4.
+  /// If the square of a component of d is less than this, the component counts as zero: across the
+  /// form, it moves the line by less than E / 4.
   W parallel;
 
   Line reversed() const { return {s, -d, dd, inv, E, parallel}; }
 };
 
-/// Entry of a line into a form. Sizes of the form are numbers for all lanes, or W with one per
-/// lane. A lane that neither hits nor misses is undecided.
+/// Entry of a line into a form. Sizes of the form are plain numbers if all lanes have the same
+/// form, otherwise W. A lane that neither hits nor misses is undecided.
 template <class W>
 struct Entry {
   Mask<W> hit = Mask<W>(false), miss = Mask<W>(false);
@@ -39,8 +38,8 @@ struct Entry {
 };
 
 /// Smaller components of a direction are replaced by this number, to avoid division by zero. A line
-/// so nearly parallel to a slab leaves the slab beyond all parameters that matter. Lengths of
-/// directions are at least 1e-19 in double, 1e-4 in float.
+/// so nearly parallel to a slab leaves the slab far beyond the form. Lengths of directions are at
+/// least 1e-19 in double, 1e-4 in float.
 template <class W>
 inline constexpr Lane<W> least_component = least_to_square<Lane<W>>;
 
@@ -55,7 +54,7 @@ Vec3<W> between(const Vec3<W>& entered, const Vec3<W>& left, const Vec3<W>& d) {
   return entered * select(is_along, W(1), outwards) - left * inwards;
 }
 
-/// Intersection of a line, with these components along z, with the slab -half <= z <= half.
+/// Intersection of a line with the slab -half <= z <= half; s and d are the line's z components.
 template <class W>
 struct Slab {
   W in, out, e;  ///< parameters of entry and exit, and their error

@@ -34,7 +34,7 @@ template <class Support>
 NearSegment near_segment(const Support& support, const Ray<double>& ray) {
   struct Named {
     const Support& function;
-    // Name that SupportMapped requires.
+    // SupportMapped requires a function of this name.
     Vec3<double> support(const Vec3<double>& n) const { return function(n); }
   };
   const Bounds<double> bounds = bounds_of(Named{support});
@@ -48,8 +48,8 @@ NearSegment near_segment(const Support& support, const Ray<double>& ray) {
     near.s = ray.origin - near.centre;
     return near;
   }
-  // Moves in two steps, in long double. fma rounds once, relative to its result; the second step
-  // removes the error left by the rounded parameter of the first.
+  // Moves in two steps, in long double. fma rounds once, relative to its result. The second step
+  // removes the error due to the rounded parameter of the first step.
   using Long = long double;
   const Vec3<Long> centre = near.centre.cast<Long>();
   Vec3<Long> s = ray.origin.cast<Long>();

@@ -8,7 +8,8 @@
 
 namespace minkray {
 
-/// One iteration, in the paper's letters. Positions are relative to the centre of the shape's ball.
+/// One iteration, in the letters of van den Bergen (2004). Positions are relative to the centre of
+/// the shape's ball.
 template <class T>
 struct CastIteration {
   T lambda;                          ///< lower bound of the hit: a length from the closest approach

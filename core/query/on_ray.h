@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Final step of every cast, for the result of any stage: for a single ray, or for a packet of rays
-// in lanes. Results are CastResult, Filtered or CastLanes.
+// Final step of every cast, for a single ray or for a packet of rays in lanes. An Answer is a
+// CastResult, Filtered or CastLanes.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace minkray {
 
-/// Limits t to the ray, if rounding moved t before the ray's beginning or beyond its end.
+/// Moves t to the nearer end of the ray if rounding put it beyond that end.
 template <class W, class Answer>
 [[gnu::always_inline]] inline void keep_on_ray(const Ray<W>& ray, Answer& answer) {
   using std::abs;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A ray relative to a shape's centre. The ray's parameter is the sum of one part up to the point
-// closest to the centre, and a second part from there on. Precision then does not depend on the
+// A ray relative to a shape's centre. The ray's parameter is stored as a sum of two parts: the
+// parameter of the point closest to the centre, and the rest. Precision then does not depend on the
 // distance of the ray's origin.
 #pragma once
 
@@ -28,7 +28,7 @@ struct RayNearBall {
   W loss = W(0);
 
   W t_offset(W lambda) const { return t_shift + lambda * t_per_length; }
-  /// Rounding error of an offset: the sum of the errors of its parts, of their sum, and of the
+  /// Rounding error of an offset: the sum of the errors of its two parts, of their sum, and of the
   /// length.
   W offset_rounding(W offset) const {
     using std::abs;
@@ -36,8 +36,8 @@ struct RayNearBall {
   }
 
   /// True if s lost digits, relative to a shape of radius R, since the ray's origin is far away.
-  /// The rounding of the first step's parameter grows with the distance of the origin, and the
-  /// second step must be small.
+  /// The error of the first step grows with the distance, and the second step can correct only a
+  /// small error.
   Mask<W> is_from_afar(Lane<W> R) const {
     using std::abs;
     return (abs(lambda_min) > W(tolerance::far_origin<Lane<W>> * R)) & (W(R) > W(0));
@@ -114,8 +114,8 @@ template <class W, class C>
 }
 
 /// Takes one centre for all lanes, or one per lane. If the centre is two-fold (has twice the
-/// digits), the ray has all digits relative to the centre. Otherwise it has only those of points
-/// near the centre.
+/// digits), the ray keeps all digits relative to the centre. Otherwise it is as precise as the
+/// coordinates of points near the centre.
 template <class W, class Centre>
 [[gnu::always_inline]] inline RayNearBall<W> ray_near_here(const Centre& centre_of_ball,
                                                            const Ray<W>& ray) {
@@ -170,7 +170,7 @@ template <class W, class Centre>
 
 #if defined(__x86_64__)
 /// Uses the fma instruction if the machine has one; otherwise calls a function for each of six fma.
-/// Compiled in one file only, so that other flags do not change bits.
+/// Compiled in one file only, so that compiler flags of other files do not change the bits.
 RayNearBall<double> ray_near_with_fma(const Vec3<double>& centre, const Ray<double>& ray);
 RayNearBall<double> ray_near_with_fma(const TwoFoldVec3<double>& centre, const Ray<double>& ray);
 #endif

@@ -26,9 +26,9 @@ inline constexpr T gjk_squared = T(16) * epsilon<T>* T(16) * epsilon<T>;
 template <class T>
 inline constexpr T gjk_rounding = T(4) * epsilon<T>;
 
-/// If |v| no longer shrinks and the lower bound no longer moves, only rounding is left: the result
-/// is a hit if |v| <= this * R, otherwise exhausted. Nearly flat simplices lose up to six bits more
-/// than single support points.
+/// If |v| no longer shrinks and the lower bound no longer rises, only rounding is left. The result
+/// is then a hit if |v| <= this * R, otherwise exhausted. Nearly flat simplices lose up to six bits
+/// more than single support points.
 template <class T>
 inline constexpr T gjk_stalled = T(256) * epsilon<T>;
 /// Results in long double are returned, and proven, in double.
@@ -51,27 +51,28 @@ template <class T>
 inline constexpr T jet_gap = T(4) * epsilon<T>;
 
 /// Uncertainty of the distance between a plane and a ray's point, in units of the bounding radius
-/// R; intervals of hits include it. The sum of half an epsilon each for the support point, for its
-/// vector from the centre and for the ray's point, one epsilon for their difference (up to 2 R),
-/// and three for its product with the normal.
+/// R; intervals of hits include it. Sums half an epsilon each for the support point, its vector
+/// from the centre and the ray's point, one epsilon for their difference (up to 2 R), and three for
+/// the product with the normal.
 template <class T>
 inline constexpr T plane_rounding = T(8) * epsilon<T>;
 
-/// Slope of a supporting plane (its normal's component against the ray) up to which the plane does
-/// not determine where along the ray the shape begins, except clearly beyond rounding. For
-/// rays in the plane of a face, the slope is a few epsilon.
+/// The slope of a supporting plane is its normal's component against the ray. A plane with at most
+/// this slope is nearly parallel to the ray, so rounding decides where along the ray it is crossed.
+/// For rays in the plane of a face, the slope is a few epsilon.
 template <class T>
 inline constexpr T least_slope = T(0x1p-36);
 
-/// Hits with a smaller slope than this are checked again if the shape may have corners. Rounding
-/// across the plane, divided by the slope, is the uncertainty along the ray, and past a corner the
-/// ray leaves the shape's neighbourhood. Affects rays within 3e-5 R of a round silhouette. For
-/// other hits the uncertainty along the ray is at most 2^7 times that across.
+/// Hits at planes with a smaller slope are checked again if the shape may have corners. The
+/// uncertainty along the ray is the rounding across the plane, divided by the slope; over this
+/// length the ray may pass a corner and leave the shape. Affects rays within 3e-5 R of a round
+/// silhouette. For other hits the uncertainty along the ray is at most 2^7 times that across the
+/// plane.
 template <class T>
 inline constexpr T uncertain_slope = T(0x1p-7);
 
-/// Same for shapes without flat faces, whose surface turns away from the ray as their planes become
-/// steep, and for the planes between which an origin is inside.
+/// Same for shapes without flat faces, whose surface turns away from the ray at small slopes. Also
+/// for the two planes that prove that the ray's origin is inside.
 template <class T>
 inline constexpr T uncertain_smooth_slope = T(0x1p-12);
 
@@ -81,7 +82,7 @@ inline constexpr T uncertain_smooth_slope = T(0x1p-12);
 template <class T>
 inline constexpr T map_rounding = T(4) * epsilon<T>;
 
-/// Rounding of a support point that is computed from larger coordinates, in units of these.
+/// Rounding of a support point that is computed from larger coordinates, in units of the latter.
 template <class T>
 inline constexpr T support_rounding = T(2) * epsilon<T>;
 
@@ -100,13 +101,14 @@ template <class T>
 inline constexpr T offset_rounding = T(4) * epsilon<T>;
 
 /// Uncertainty (loss) of a ray's position, in units of the bounding radius. A smaller loss only
-/// widens a hit's interval. For a larger loss, all rays within the loss must have the same result.
-/// A thousand roundings, since few rays pass an edge so closely.
+/// widens the interval of a hit. For a larger loss, all rays within the loss must have the same
+/// status. Equals a thousand roundings, since few rays pass an edge so closely.
 template <class T>
 inline constexpr T small_loss = T(1024) * epsilon<T>;
 
-/// Largest distance along the ray between model and best plane for a hit, whatever the planes'
-/// slopes, in units of the bounding radius. Equals a gap of jet_gap at a slope of 1e-6.
+/// Largest distance along the ray between the model's hit and the best plane for a hit, for any
+/// slope of the planes. In units of the bounding radius. Equals a gap of jet_gap at a slope of
+/// 1e-6.
 template <class T>
 inline constexpr T jet_gap_along = T(0x1p-30);
 
@@ -126,15 +128,15 @@ inline constexpr T model_rounding = T(8) * epsilon<T>;
 template <class T>
 inline constexpr T settled_squared = T(4) * epsilon<T>;
 
-/// Largest squared distance, in units of the bounding radius, between the point where the ray
-/// crosses a tangent plane of a hull of sums and the point where the plane touches. Below the
-/// crossing, the surface is lower than the plane by half of the squared distance, divided by the
-/// radius of curvature.
+/// Limit for hits on a hull of sums: the squared distance between the point where the ray crosses a
+/// tangent plane and the point where that plane touches. In units of the squared bounding radius.
+/// At this distance from the point of contact, the surface is below the plane by half of the
+/// squared distance divided by the radius of curvature.
 template <class T>
 inline constexpr T on_the_ray_squared = T(0.36) * epsilon<T>;
 
-/// Shapes whose size is between the inverse of this and this are cast at without scaling: fourth
-/// powers of sizes, times the square of epsilon, are then in the range of T.
+/// Shapes whose size is from 1 / this to this are cast at without scaling: fourth powers of sizes,
+/// times the square of epsilon, are then in the range of T.
 template <class T>
 inline constexpr T ordinary_size = T(0x1p128);
 
@@ -159,8 +161,8 @@ inline constexpr T ball_padding = T(8) * epsilon<T>;
 template <class T>
 inline constexpr T end_slack = T(8) * epsilon<T>;
 
-/// For origins up to this distance, moving a ray near the shape loses no digits. In the shape's own
-/// frame, in units of the bounding radius. The first step's error is 2^-24 (float) or 2^-53
+/// Distance of an origin up to which moving the ray near the shape loses no digits, in the shape's
+/// own frame and in units of the bounding radius. The first step's error is 2^-24 (float) or 2^-53
 /// (double) of the distance; the second step's error is the same fraction of the first step's
 /// error.
 template <class T>
@@ -170,42 +172,43 @@ inline constexpr T far_origin = std::is_same_v<T, float> ? T(0x1p24) : T(0x1p53)
 /// its digits.
 inline constexpr double farthest_origin = 0x1p62;
 
-/// A line counts as meeting a bounding box up to this distance, relative to the sizes of the
+/// Distance up to which a line counts as meeting a bounding box, relative to the sizes of the
 /// summands. The mapped origin and direction are sums of up to four rounded numbers; their cross
 /// product and the box's reach add a few roundings.
 template <class T>
 inline constexpr T box_padding = T(8) * epsilon<T>;
 
-/// Uncertainty that closed forms assume of a position near the shape, in units of the form's
-/// radius: E / R of docs/forms.md ("Casts with an error bound"). Rounding of the two steps that
-/// move the ray and of some twenty operations after them, 2^-53 each.
+/// Error of a position near the shape that closed forms allow for, in units of the form's radius: E
+/// / R of docs/forms.md ("Casts with an error bound"). Rounding of the two steps that move the ray
+/// and of some twenty operations after them, 2^-53 each.
 inline constexpr double form_rounding = 0x1p-49;
 
-/// Share of the squared direction. A component across an axis whose square is a smaller share moves
-/// the ray by less than E / 4 while it passes the shape: (E / R)^2 / 16.
+/// (E / R)^2 / 16. A component of the direction counts as zero if its square is less than this
+/// share of the squared direction: it moves the ray by less than E / 4 while the ray passes the
+/// shape.
 inline constexpr double form_parallel = form_rounding * form_rounding / 16;
 
 /// Distance of an origin, in units of the form's radius, up to which closed forms are used.
 inline constexpr double form_far = 0x1p20;
 
-/// Forms are used up to this ratio of a map's rounding to the rounding of the form's own points.
-/// The error is then at most 2^-30 of the radius; the forms' bounds neglect squares of errors.
+/// Largest ratio of a map's rounding to the rounding of the form's own points for which forms are
+/// used. The error is then at most 2^-30 of the radius, and forms' bounds may neglect its square.
 inline constexpr double form_worst_map = 0x1p19;
 
-/// Increases of the bound of t due to the rounding of the bound (a share of it) and of t (epsilons
-/// of the offset, of the ray's length and of its inverse).
+/// The bound of t is rounded, too, and is increased by form_margin times itself. form_digits allows
+/// for the rounding of t, relative to the offset and the shift.
 inline constexpr double form_margin = 0x1p-20;
 inline constexpr double form_digits = 8 * epsilon<double>;
 
-/// Limit of lengths of directions, and of their inverses, for rays in double.
+/// Largest length of directions, and of their inverses, for closed forms.
 inline constexpr double form_longest_step = 1e250;
 
-/// Error bound of r^2 - |x|^2, where x is the line's closest point, in units of E r. The error is
-/// 2 r |dx| and a few roundings of r^2. Lines nearer to tangency are not decided by the form.
+/// Error bound of r^2 - |x|^2, where x is the line's point closest to the centre, in units of E r:
+/// 2 r |dx| and a few roundings of r^2. The form does not decide lines nearer to tangency.
 inline constexpr double form_tangent = 4;
 
-/// Two planes that cut a cylinder may cross inside it by this fraction of their distance, since
-/// planes that touch are rounded in double.
+/// Two planes that cut a cylinder may cross inside it by this fraction of their distance, since the
+/// numbers of planes that touch are rounded to double.
 inline constexpr double form_touching = 0x1p-50;
 
 /// Limits of the tapered forms for which docs/forms.md derives bounds: the height of the apex in
@@ -216,18 +219,18 @@ inline constexpr double tapered_least_ball = 0x1p-10;
 inline constexpr double tapered_steepest = 0.99;
 
 /// Rounding, across the plane, of the point where a line crosses a polytope's plane, in units of
-/// the polytope's radius. Multiples of 2^-53: 1 for the plane's offset, 5 for the line's height and
-/// 3 for its slope (three products and their sum each), 2 for the length along the line, and one
+/// the polytope's radius. In multiples of 2^-53: 1 for the plane's offset, 5 for the line's height
+/// and 3 for its slope (three products and their sum each), 2 for the length along the line, and 1
 /// more.
 inline constexpr double polytope_rounding = 12 * 0x1p-53;
 
-/// Rounded polytopes use their features only if each triangle's height is at least this, in radii
-/// of the polytope. Rounding that confuses adjacent features is proportional to the inverse of the
+/// Rounded polytopes use their features only if each triangle's height is at least this, in units
+/// of the polytope's radius. The rounding that confuses adjacent features is proportional to 1 /
 /// height.
 inline constexpr double rounded_polytope_height = 0x1p-12;
 
-/// If the error E of a line is above this, in units of the rounding radius of a polytope, normals
-/// of the polytope's features are less precise than points.
+/// If the error E of a line is above this, in units of the radius by which a polytope is rounded,
+/// normals of the polytope's features are less precise than points.
 inline constexpr double rounded_line_error = 0x1p-40;
 
 /// Bounds the displacement of a polytope's corner, projected along a line with the error E, in
@@ -248,19 +251,19 @@ inline constexpr int distance_max_iterations = 400;
 /// Limit of support points. Algorithm 1 needed some 1500 in its nested queries for grazing rays.
 inline constexpr int first_solution_max_supports = 10000;
 
-/// Shapes are moved apart by these distances to find the point of contact, relative to the sum of
-/// their sizes. Hits are precise to a few epsilon, hits of stalled casts to gjk_stalled.
+/// Distances by which shapes are moved apart to find the point of contact, relative to the sum of
+/// their sizes. Hits are precise to a few epsilon, and hits of stalled casts to gjk_stalled.
 template <class T>
 inline constexpr T contact_back_off[] = {T(8) * epsilon<T>, T(64) * epsilon<T>,
                                          T(512) * epsilon<T>};
 
 /// Sine below which two edges of a face count as parallel. Support points that are differences of
-/// two shapes' points are rounded, so collinear ones may form a slight angle.
+/// two shapes' points are rounded, so edges on one line may form a slight angle.
 template <class T>
 inline constexpr T collinear = T(4) * epsilon<T>;
 
-/// Proofs use the ray up to this distance from its point closest to the bounding ball's centre, in
-/// radii of the ball.
+/// Length of the part of a ray that proofs use, measured both ways from its point closest to the
+/// bounding ball's centre, in radii of the ball.
 inline constexpr double proof_reach = 2;
 
 /// Factor by which the error of a proof may exceed the rounding of double: the middle of a sliver
@@ -271,8 +274,8 @@ inline constexpr double proof_roundings = 16;
 /// the checker's tolerance.
 inline constexpr double proof_good_enough = 16;
 
-/// A hit that the proof search finds again counts as the claimed hit up to this distance along the
-/// normal, in epsilons of the claim's precision.
+/// The proof search computes its own hit. This counts as the claimed hit up to this distance along
+/// the normal, in epsilons of the claim's precision.
 inline constexpr double proof_close_to_claim = 32;
 
 /// A point spanned by support points counts as the hit point up to this distance, in machine
@@ -288,8 +291,8 @@ inline constexpr float screen_rounding = 0x1p-19f;
 /// of errors, which the forms' bounds neglect, are then far below the bounds.
 inline constexpr float screen_largest_share = 0x1p-6f;
 
-/// Limits of squared lengths of directions in a form's frame, and of radii. Between these limits,
-/// numbers in float lanes do not overflow or underflow.
+/// Limits of squared lengths of directions in a form's frame, and of its radii. Within these
+/// limits, numbers in float lanes neither overflow nor underflow.
 inline constexpr float screen_shortest_squared = 1e-8f;
 inline constexpr float screen_longest_squared = 1e8f;
 inline constexpr double screen_least_radius = 1e-7;

@@ -56,7 +56,7 @@ class SupportSource {
   /// Implements `ask`, which calls this function with unit directions.
   virtual void support(std::size_t count, const Coordinates* directions,
                        Coordinates* points) const = 0;
-  /// Implements `ask_jets`; called only on objects that have called know_jets.
+  /// Used by `jet_along`; called only on objects that have called know_jets.
   virtual void jets(std::size_t count, const Coordinates* directions, Coordinates* points,
                     Derivative* derivatives) const;
 
@@ -77,7 +77,8 @@ struct Custom {
     return support_where(Mask<W>(true), n);
   }
 
-  /// Returns support points in the wanted lanes; other lanes get the first wanted lane's point.
+  /// Returns support points in the wanted lanes. Other lanes get the point of the first wanted
+  /// lane.
   template <class W>
   Vec3<W> support_where(const Mask<W>& wanted, const Vec3<W>& n) const {
     if constexpr (std::floating_point<W>) {
@@ -106,8 +107,8 @@ struct Custom {
     }
   }
 
-  /// Returns the ellipsoid around the inner point that has the same derivative; a single point if
-  /// there are no derivatives.
+  /// Returns the ellipsoid around the inner point with the same derivative; a single point if the
+  /// source has no derivatives.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     if (!source->has_jets()) return PointJet<W>{support(n)};

@@ -19,7 +19,7 @@ struct Point {
                             "the point's position", true}};
   }
 
-  /// Closed form of a ball of radius 0, so that a rounded point has the closed form of a ball.
+  /// A ball of radius 0, so that a rounded point has the closed form of a ball.
   ExactForm exact_form() const {
     const Vec3<double>& p = position;
     return {FormKind::ball, {0}, {double(p[0]), double(p[1]), double(p[2])}};

@@ -6,12 +6,13 @@
 
 namespace minkray {
 
-/// Files specify the map by `translate`, `rotate` and `scale`, or by `matrix`. Must be invertible.
+/// Files specify the map by `translate`, `rotate` and `scale`, or by `matrix`. The map must be
+/// invertible.
 class AffineMap {
  public:
   AffineMap() = default;
-  /// M^T is stored divided by M's largest entry (support mappings ignore a direction's length), so
-  /// that directions stay near unit length however small or large the map's scale is.
+  /// Stores M^T divided by the largest entry of M, so that directions stay near unit length for any
+  /// scale of the map. Support mappings ignore a direction's length.
   AffineMap(const Affine<double>& affine)
       : affine_(affine),
         to_inner_(affine.linear.transpose() / affine.linear.cwiseAbs().maxCoeff()),
@@ -25,7 +26,7 @@ class AffineMap {
   /// Direction for the inner shape's support mapping.
   template <class W>
   Vec3<W> inner_direction(const Vec3<W>& n) const {
-    if constexpr (std::is_same_v<W, long double>) {  // with its digits
+    if constexpr (std::is_same_v<W, long double>) {  // in all digits of W
       const Mat3<W> linear = widen<W>(affine_.linear);
       return Mat3<W>(linear.transpose() / linear.cwiseAbs().maxCoeff()) * n;
     } else {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Maps of nested shapes, composed with twice the digits. A shape that one map moves far away, and
-// the next map moves back, keeps its exact position. Includes a bound of the maps' errors.
+// Maps of nested shapes, composed with twice the digits, and a bound of their errors. A shape that
+// one map moves far away, and the next map moves back, keeps its exact position.
 #pragma once
 
 #include "core/math/length.h"
@@ -9,13 +9,13 @@
 namespace minkray {
 
 /// Error of a rotation matrix computed from a file's quaternion, relative to its largest entry. The
-/// largest one of 20,000 random quaternions was 3.9 epsilon (Frobenius norm).
+/// largest error for 20,000 random quaternions was 3.9 epsilon (Frobenius norm).
 inline constexpr double rounding_of_turns = 4 * std::numeric_limits<double>::epsilon();
 
 /// Rounding error of arithmetic with twice the digits, relative to the summands.
 inline constexpr double two_fold_rounding = 0x1p-100;
 
-/// True if each row has at most one nonzero entry, so no entries of a rotation were rounded.
+/// True if each row has at most one nonzero entry. The entries of such a rotation are exact.
 inline bool is_along_axes(const Mat3<double>& linear) {
   for (int i = 0; i < 3; ++i)
     if ((linear.row(i).array() != 0).count() > 1) return false;
@@ -25,7 +25,7 @@ inline bool is_along_axes(const Mat3<double>& linear) {
 struct ComposedMap {
   TwoFoldMat3<double> linear;
   TwoFoldVec3<double> translation;
-  double turn_error = 0;  ///< error bound of `linear`, as a length per length
+  double turn_error = 0;  ///< error bound of `linear`, per unit of length
   double loss = 0;        ///< error bound of `translation`, as a length
 
   ComposedMap() = default;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Optional declarations in a shape's header, in addition to its support mapping and jets. Casts at
-// a shape without declarations use only the support mapping and jets; names of fields and functions
-// have no effect.
+// Optional declarations in a shape's header, in addition to its support mapping and jets. Casts use
+// the members named here only if the shape declares them.
 #pragma once
 
 #include <concepts>

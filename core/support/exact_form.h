@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Closed form of a shape for casts: the form's name and its numbers. Casts at a shape that declares
-// no form use only its support mapping and jets; names of parameters have no effect.
+// Closed form of a shape for casts: its kind and its numbers. Casts at a shape that declares no
+// form use only its support mapping and jets.
 #pragma once
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Descriptions of a shape's parameters, from which follow: reading and writing JSON, error messages
-// that name the parameter, `minkray info --shapes`, and the JSON Schema.
+// Descriptions of a shape's parameters. Used to read and write JSON, to name a parameter in error
+// messages, for `minkray info --shapes`, and for the JSON Schema.
 #pragma once
 
 #include <string_view>
@@ -21,14 +21,14 @@ enum class Range {
   brightness
 };
 
-/// Largest brightness of a light, in the scene's unit. Products of a few such numbers, or sums of
-/// millions, are finite in a picture of floats (up to 3.4e38).
+/// Largest brightness of a light, in the scene's unit. Products of a few such numbers, and sums of
+/// millions, stay finite in a picture of floats (up to 3.4e38).
 inline constexpr double most_brightness = 1e15;
 
-/// One parameter: the member of shape S that holds it. The member's type determines its form in
-/// JSON: T a number, std::array<T, 2> and Vec3<T> lists of two and three, std::array<Vec3<T>, N> a
-/// list of N points, Nested a shape, ShapeList a list of shapes, PointCloud points or a
-/// mesh file, AffineMap the keys of a pose. An optional parameter keeps its initial value if
+/// One parameter: a member of shape S. The member's type determines the JSON form: T is a number;
+/// std::array<T, 2> and Vec3<T> are lists of two and three numbers; std::array<Vec3<T>, N> is a
+/// list of N points; Nested is a shape; ShapeList is a list of shapes; PointCloud is points or a
+/// mesh file; AffineMap is the keys of a pose. An optional parameter keeps its initial value if
 /// left out.
 template <class S, class M>
 struct Field {
@@ -47,8 +47,8 @@ Field(std::string_view, M S::*, Unit, Range, std::string_view) -> Field<S, M>;
 template <class S, class M>
 Field(std::string_view, M S::*, Unit, Range, std::string_view, bool) -> Field<S, M>;
 
-/// A parameter that contradicts others of its shape, and its requirement: a text and a number that
-/// follows it. Shapes whose parameters depend on each other have a member function misfit().
+/// A parameter that contradicts others of its shape, and the requirement that it violates: a text
+/// followed by a number. Shapes whose parameters depend on each other have a function misfit().
 struct Misfit {
   std::string_view parameter;
   std::string_view must_be;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Jets: a shape's support mapping to second order (derived in docs/forms.md). In direction n, a
-// shape is approximated by an ellipsoid with the same support point and curvature. With
-// h(n) = n.s(n), c an interior point, g = s - c and H = ds/dn, its shape matrix around c is
-// A = h H + g g^T. Jets store a factor F of A = F F^T, since A would lose half of the digits of
-// flat features.
+// Jets: a shape's support mapping to second order (derived in docs/forms.md). In direction n, an
+// ellipsoid with the same support point and curvature approximates the shape. With h(n) = n.s(n),
+// an interior point c, g = s - c and H = ds/dn, the ellipsoid's shape matrix around c is A = h H +
+// g g^T. Jets store a factor F of A = F F^T; A would lose half of the digits of flat features.
 #pragma once
 
 #include <concepts>
@@ -107,8 +106,9 @@ Mat3<W> factor(const Mat3<W>& A) {
   return F;
 }
 
-/// Returns a factor of an ellipsoid that approximates the sum of two ellipsoids with a common
-/// centre: both have the same reach, support point and curvature in direction n.
+/// Returns a factor of an ellipsoid that approximates the Minkowski sum of two ellipsoids with a
+/// common centre. The ellipsoid and the sum have the same reach, support point and curvature in
+/// direction n.
 template <class W>
 Mat3<W> osculating_sum(const Mat3<W>& F_a, const Mat3<W>& F_b, const Vec3<W>& n) {
   const Vec3<W> u_a = F_a.transpose() * n, u_b = F_b.transpose() * n;
@@ -131,13 +131,13 @@ Jet<W> add(const Jet<W>& a, const Jet<W>& b, const Vec3<W>& n) {
   };
   const Mask<W> a_point = a.is_point(), b_point = b.is_point();
   const Mask<W> balls = is_ball(a.F) & is_ball(b.F);
-  const Mask<W> simple = a_point | b_point | balls;  // factors add if F of a point is zero
+  const Mask<W> simple = a_point | b_point | balls;  // F of a point is zero: factors can be added
   const Jet<W> joined{c, Mat3<W>(a.F + b.F), Mask<W>(a.exact & b.exact), s};
   if (all(simple)) return joined;
 
   Jet<W> sum{c, osculating_sum<W>(a.F, b.F, n), Mask<W>(false), s};
-  // A flat feature has almost no extent along its normal. The feature, moved to the other feature's
-  // support point, lies in the sum and touches the sum's supporting plane.
+  // A flat feature has almost no extent along its normal. If moved to the other feature's support
+  // point, it lies in the sum and touches the sum's supporting plane.
   const W h_a = (a.F.transpose() * n).norm(), h_b = (b.F.transpose() * n).norm();
   const W flat = (h_a + h_b) * W(T(1) / T(1024));
   const Mask<W> a_flat = !(h_a > flat), b_flat = !(h_b > flat);

@@ -21,7 +21,7 @@ class Nested {
   const Shape& operator*() const { return *shape_; }
   const Shape* operator->() const { return shape_.get(); }
 
-  /// Those of the shape.
+  /// Support point and jet of the operand.
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const;
   template <class W>
