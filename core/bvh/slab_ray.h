@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Rays prepared for slab tests against eight boxes of floats, padded after Ize, "Robust BVH Ray
-// Traversal" (2013), so rounding never loses a box that the exact ray meets. Rays are tested in
-// float; the origin is rounded so that near planes come earlier and far planes later. t is scaled
-// to steps, by a power of two that makes the direction's largest component about 1, so that
-// directions of any length stay in range.
+// Rays prepared for slab tests against eight boxes of floats. Tests are padded (Ize, "Robust BVH
+// Ray Traversal", 2013), so rounding never loses a box that the exact ray meets. The float origin
+// is rounded so that near planes come earlier and far planes later. The parameter is measured in
+// steps: t times a power of two that makes the direction's largest component about 1.
 #pragma once
 
 #include <algorithm>
@@ -32,8 +31,8 @@ struct SlabNumbers {
 /// and the product with the padding is rounded once more: 1 + 2 gamma + u < 1 + 4 epsilon.
 inline constexpr float slab_padding = 1 + 4 * std::numeric_limits<float>::epsilon();
 
-/// Factor by which a hit's parameter is enlarged as a limit, since it is rounded when it is
-/// computed and when it is converted to steps.
+/// Factor that enlarges a hit's parameter before it limits a ray: the parameter is rounded when it
+/// is computed, and again when it is converted to steps.
 inline constexpr float hit_padding = 1 + 32 * std::numeric_limits<float>::epsilon();
 
 /// Padding for the absolute error of subnormal numbers.
@@ -59,7 +58,7 @@ inline float float_below(double x) {
 /// Slab numbers of a ray, and the scale of its parameter.
 struct SlabRay {
   SlabNumbers numbers;
-  double steps;  ///< number of steps that make t = 1
+  double steps;  ///< number of steps per unit of t
 
   SlabRay() = default;
   /// Origin and direction must be finite. Components of the direction may be zero (also -0); if all
@@ -81,7 +80,8 @@ struct SlabRay {
       if constexpr (std::is_same_v<T, float>) {
         numbers.origin_near[axis] = numbers.origin_far[axis] = ray.origin[axis];
       } else {
-        // Mirrors the ray so that it goes up, and mirrors back. A branch would be unpredictable.
+        // Mirrors the ray so that it goes up, and mirrors the result back, to avoid an
+        // unpredictable branch.
         const double turn = std::copysign(1.0, d), o = turn * ray.origin[axis];
         numbers.origin_near[axis] = static_cast<float>(turn) * detail::float_above(o);
         numbers.origin_far[axis] = static_cast<float>(turn) * detail::float_below(o);
@@ -95,8 +95,7 @@ struct SlabRay {
     numbers.t_max = limit(static_cast<double>(ray.t_max));
   }
 
-  /// Converts t to steps, rounded up: boxes further away contain no hit with a parameter of at most
-  /// t.
+  /// Converts t to steps, rounded up. Boxes beyond the result contain no hit at or before t.
   float limit(double t) const { return static_cast<float>(t * steps) * hit_padding + slab_tiny; }
 };
 

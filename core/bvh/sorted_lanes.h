@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Orders AVX2 lanes: moves the lanes of a set to the front, and sorts keys by a sorting network for
-// several registers at once. All functions have internal linkage (core/math/wide.h explains why).
+// Orders AVX2 lanes: moves the lanes of a set to the front, and sorts the keys of several registers
+// at once with a sorting network. All functions have internal linkage (core/math/wide.h explains
+// why).
 #pragma once
 
 #include <cstdint>

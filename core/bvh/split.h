@@ -24,7 +24,7 @@ struct BuildHalves {
   int axis = 0;  ///< axis of the area splitter's split
 };
 
-/// From this depth on, ranges are split into halves of equal count, which gives at most 32 more
+/// From this depth on, ranges are split into halves of equal count. This gives at most 32 more
 /// levels.
 inline constexpr int free_split_depth = 46;
 

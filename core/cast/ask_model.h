@@ -7,7 +7,8 @@
 
 namespace minkray {
 
-/// Returns `exhausted` if the model does not converge, or if the origin may or may not lie inside.
+/// Returns `exhausted` if the model does not converge, or if rounding leaves open whether the
+/// origin lies inside.
 template <class Observer>
 CastResult<double> cast_with_model(Stage stage, const StageQuestion& question,
                                    Observer&& observer) {

@@ -15,21 +15,21 @@ namespace minkray {
 
 struct CastOptions {
   SolverKind solver = SolverKind::automatic;
-  /// Relative tolerance of squared lengths, for solvers that use one (eps_tol in van den Bergen's
-  /// paper).
+  /// Relative tolerance of squared lengths, for solvers that use one (eps_tol in van den Bergen,
+  /// 2004).
   double eps_tol = tolerance::gjk_squared<double>;
   int max_iterations = tolerance::gjk_max_iterations;
-  /// Initial normal, in the ray's coordinates; some solvers use it. For example the normal of the
-  /// plane that separated this ray and shape in the previous picture of an animation. Zero: none.
+  /// Initial normal in the ray's frame, for solvers that use one. For example, the normal of the
+  /// plane that separated ray and shape in the previous picture of an animation. Zero for none.
   Vec3<double> v0 = Vec3<double>::Zero();
 };
 
 using CastObserver = std::function<void(const CastIteration<double>&)>;
 
 /// Finds where the ray enters the shape: the least t in [0, t_max] at which origin + t * direction
-/// lies in it. If the origin is in the shape, the status is inside and t = 0. Numbers must be
-/// finite; t_max may be infinite. The observer, if any, receives every iteration of the
-/// solver, in the shape's inner frame (see PreparedShape).
+/// lies in the shape. If the origin is in the shape, the status is inside and t = 0. Numbers must
+/// be finite; t_max may be infinite. The observer, if any, receives every iteration of the solver,
+/// in the shape's inner frame (see PreparedShape).
 CastResult<double> cast_ray(const PreparedShape& shape, const Ray<double>& ray,
                             const CastOptions& options = {}, const CastObserver& observer = {});
 
@@ -38,9 +38,9 @@ CastResult<double> cast_ray(const PreparedShape& shape, const Ray<double>& ray,
 CastResult<double> cast_ray(const ShapeDefinition& definition, const Affine<double>& pose,
                             const Ray<double>& ray);
 
-/// Finds where the ray leaves the shape: the greatest t in [0, t_max] at which
-/// origin + t * direction lies in it. Status hit: the ray leaves the shape at t. Inside: the ray's
-/// end, at t_max, is in the shape. Miss: the ray misses the shape.
+/// Finds where the ray leaves the shape: the greatest t in [0, t_max] at which origin + t *
+/// direction lies in the shape. Status hit: the ray leaves the shape at t. Inside: the ray's end,
+/// at t_max, is in the shape. Miss: the ray misses the shape.
 CastResult<double> cast_exit(const PreparedShape& shape, const Ray<double>& ray,
                              const CastOptions& options = {});
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// First stage of a cast, which decides nearly all rays: the shape's closed form in double, with an
-// error bound. If the bound is too wide to decide, the ray is "in doubt" and the next stage runs
+// First stage of a cast: the shape's closed form in double, with an error bound. Decides nearly all
+// rays. If the error bound is too large to decide, the ray is "in doubt" and the next stage runs
 // (cf. Shewchuk, "Adaptive Precision Floating-Point Arithmetic", 1997). Single rays and packets
 // share this code, so their results are bit-identical.
 #pragma once
@@ -13,7 +13,7 @@
 namespace minkray {
 
 /// Results of the filter, one ray per lane. A lane that is neither hit, inside nor miss is in
-/// doubt. The other members have the meaning that they have in CastResult.
+/// doubt. All other members are those of CastResult.
 template <class W>
 struct Filtered {
   Mask<W> hit, inside, miss;
@@ -35,7 +35,7 @@ struct Filtered {
   result.normal = answer.normal;
 }
 
-/// Normalises a normal whose length is neither tiny nor huge, so that its square cannot overflow.
+/// Normalises a vector whose squared length neither underflows nor overflows.
 template <class W>
 [[gnu::always_inline]] inline Vec3<W> unit_of_ordinary(const Vec3<W>& v) {
   using std::sqrt;
@@ -50,9 +50,9 @@ template <class W>
   return exact::enter<W>(form, line, open);
 }
 
-/// Finds where each ray enters the shape or, with `leaves`, where it leaves the shape. Results are
+/// Finds where each ray enters the shape or, if `leaves`, where it leaves the shape. Results are
 /// valid only in `open` lanes. `shape` is a PreparedShape, or a type with the same members in
-/// lanes; its definition must have a closed form.
+/// lanes. The shape's definition must have a closed form.
 template <bool leaves, class W, class Placed>
 [[gnu::always_inline]] inline Filtered<W> filter(const Placed& shape, const Ray<W>& ray,
                                                  const Mask<W>& open) {
@@ -67,13 +67,13 @@ template <bool leaves, class W, class Placed>
   const W first = leaves ? W(-near.end) : near.begin, last = leaves ? W(-near.begin) : near.end;
   exact::Entry<W> entry = exact::enter<W>(form, line, open & near.bounded);
 
-  // The plane that proves a miss is parallel to the line, up to rounding.
+  // The normal of a plane that proves a miss is perpendicular to the line; this removes rounding.
   if (any(entry.miss)) {
     const W towards = entry.normal.dot(line.d) * line.inv;
     entry.normal = select<W>(entry.miss, Vec3<W>(entry.normal - line.d * towards), entry.normal);
   }
 
-  // The line's hit is a hit of the ray if the ray starts before it and does not end before it.
+  // The line's hit is a hit of the ray if the ray starts before this point and ends at or after it.
   const W slack = near.slack;
   const W lo = entry.t - entry.e - slack, hi = entry.t + entry.e + slack;
   Filtered<W> answer;
@@ -119,7 +119,7 @@ template <bool leaves, class W, class Placed>
   W offset = near.shift + tau * near.per;
   W bound = entry.e * near.per * W(1 + tolerance::form_margin) +
             (abs(offset) + abs(near.shift)) * W(tolerance::form_digits);
-  if (any(answer.inside)) {  // some lanes of a packet
+  if (any(answer.inside)) {  // in a packet, other lanes may be hits
     offset = select(answer.inside, W(0), offset);
     bound = select(answer.inside, W(0), bound);
   }

@@ -43,13 +43,13 @@ template <class W, class Placed>
   RayNearBall<W> seen = detail::near_of(shape, ray);
   const Mat3<P>* map = shape.linear_to_inner();
   const P inner_R(form.inner_R), distance = sqrt(P(shape.centre().squaredNorm()));
-  // The two steps round as positions do that are as large as the form and its centre.
+  // The two steps are rounded like positions of the size of the form and of its centre.
   W reach(inner_R + distance / P(4));
   Mask<W> well_mapped(true);
   if (map) {
     const P squared = map->squaredNorm(), size = sqrt(squared);
     const RayNearBall<W> mapped = seen.mapped(*map);
-    // With shear, the steps and the direction may be much longer before the map than after.
+    // If the map shears, the steps and the direction may be much longer before the map than after.
     const W length = seen.t_per_length / mapped.t_per_length;
     const W step = (mapped.t_shift - seen.t_shift) / seen.t_per_length;
     const W across = W(form.inner_R) / length;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Selects the result of a cast from those of its stages: the first that needs no proof or has a
-// sharp proof, or else the first that has any proof.
+// Selects the result of a cast from the results of its stages: the first one that needs no proof or
+// that is proven to the precision of double ("sharply"). If there is none, the first one with a
+// coarser proof.
 #pragma once
 
 #include <optional>
@@ -14,15 +15,16 @@ class Judge {
  public:
   Judge(const StageQuestion& question, Proof proof) : question_(question), proof_(proof) {}
 
-  /// True if no further stage has to run.
+  /// Takes the result of a stage. Returns true if no further stage has to run.
   bool accepts(CastResult<double> answer);
-  /// Same as accepts(), for a result of the finer stage, which always has to be proven.
+  /// Same for a result of the stage `finer`, which must always be proven.
   bool accepts_finer(const CastResult<double>& answer);
-  /// Runs last, for rays that just touch a rim or an edge. Tries to prove an unproven hit at a
-  /// point before the claimed one, past an edge; otherwise tries to prove a hit where the last
-  /// stage stopped that gave a plane but did not converge.
+  /// Runs last, for rays that just touch a rim or an edge. If a hit is unproven, tries to prove a
+  /// hit at an earlier point of the ray, past an edge. Otherwise, if a stage did not converge but
+  /// gave a plane, tries to prove a hit at the point where that stage stopped.
   void try_once_more();
-  /// Returns the result once a stage was accepted or none is left, with the counts of all stages.
+  /// Returns the selected result, with the counts of all stages. Call once a stage was accepted or
+  /// no stage is left.
   CastResult<double> verdict() const;
 
  private:

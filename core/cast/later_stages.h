@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Later stages of a cast, for shapes without a form and for rays that leave the filter
-// (core/cast/filter.h) in doubt: bounds, models, the GJK ray cast, and both with more digits.
+// Later stages of a cast, for shapes without a closed form and for rays that the filter
+// (core/cast/filter.h) leaves in doubt: bounds, models, and the GJK ray cast, in double and with
+// more digits.
 #pragma once
 
 #include "core/cast/cast.h"

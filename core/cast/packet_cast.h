@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Casts several rays at one shape at once. Results are bit-identical to
-// those of cast_ray.
+// Casts several rays at one shape at once. Results are bit-identical to those of cast_ray.
 #pragma once
 
 #include <array>
@@ -41,13 +40,13 @@ struct alignas(32) RayPacket {
 using LaneBits = std::uint32_t;
 inline constexpr LaneBits all_lanes = (LaneBits(1) << packet_lanes) - 1;
 
-/// CastResult, lane by lane. Lanes that were not requested are undefined, and so are the numbers of
-/// t in lanes that miss.
+/// CastResult, lane by lane. Lanes that were not requested are undefined. In lanes that miss, all
+/// members of t are undefined.
 struct alignas(32) CastPacket {
   LaneBits hit = 0, inside = 0, miss = 0;  ///< a requested lane with none of these is exhausted
   PacketNumbers t_base, t_offset, offset_lo, offset_hi;
   std::array<PacketNumbers, 3> normal;
-  PacketNumbers supports;  ///< also the number of iterations
+  PacketNumbers supports;  ///< equals the number of iterations
   std::array<Path, static_cast<std::size_t>(packet_lanes)> path;
 
   LaneBits found() const { return hit | inside; }

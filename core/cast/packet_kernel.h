@@ -8,7 +8,7 @@
 namespace minkray {
 
 /// Requires a shape with a model. Lanes that do not converge are neither hit, inside nor miss. If
-/// `leaves`, hits are where rays leave the shape, and nothing is known of other lanes.
+/// `leaves`, hits are where rays leave the shape, and lanes without a hit are undecided.
 void packet_kernel_sse2(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
                         bool leaves, CastPacket& answers);
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Casts of rays whose position relative to the shape has an error of up to RayNearBall::loss:
+// Casts for rays whose position relative to the shape has an error of up to RayNearBall::loss:
 // results hold for every ray within that distance. The parameter at which parallel rays enter a
-// convex shape is a convex function of their position: if rays through the corners of a triangle
-// enter the shape, so do all rays between them, no later than the latest of the three.
+// convex shape is a convex function of their position. So if rays through the corners of a triangle
+// enter the shape, all rays between them enter no later than the last of the three.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,8 @@
 
 namespace minkray {
 
-/// Three rays parallel to one, at the corners of a triangle that contains all rays within the loss.
+/// Three rays parallel to a given ray, through the corners of a triangle that contains all rays
+/// within the loss.
 class RaysAround {
  public:
   static constexpr int count = 3;
@@ -30,14 +31,16 @@ class RaysAround {
     return moved;
   }
 
-  /// A corner's ray that begins later and ends earlier by the loss.
+  /// Returns the ray at a corner, with a beginning that is later and an end that is earlier by the
+  /// loss.
   RayNearBall<double> shorter(int corner) const {
     RayNearBall<double> moved = (*this)[corner];
     moved.lambda_min += near_.loss;
     moved.lambda_max -= near_.loss;
     return moved;
   }
-  /// A corner's ray that begins earlier or later by the loss (sign = -1 or 1).
+  /// Returns the ray at a corner, with a beginning that is earlier (sign = -1) or later (1) by the
+  /// loss.
   RayNearBall<double> beginning(int corner, int sign) const {
     RayNearBall<double> moved = (*this)[corner];
     moved.lambda_min += sign * near_.loss;
@@ -49,7 +52,7 @@ class RaysAround {
   RayFrame<double> frame_;
 };
 
-/// Casts by `ask(near)`, which takes the ray's position as exact. Returns `exhausted` if rays
+/// Casts by `ask(near)`, which treats the ray's position as exact. Returns `exhausted` if rays
 /// within the loss may have another status.
 template <class Ask>
 CastResult<double> ask_within_loss(const PreparedShape& shape, const RayNearBall<double>& near,
@@ -101,8 +104,8 @@ CastResult<double> ask_within_loss(const PreparedShape& shape, const RayNearBall
       latest = std::max(latest, sign * other.offset_hi);
     }
     if (!(latest < std::numeric_limits<double>::infinity())) return give_up();
-    // A convex function falls below its value in the middle by at most what it rises around it. The
-    // ray may also be displaced along itself.
+    // Around a point, a convex function falls by at most as much as it rises on the opposite side.
+    // The ray may also be displaced along itself.
     const double along = near.loss * std::abs(near.t_per_length);
     found.offset_hi = sign * (latest + along);
     found.offset_lo = sign * (2.0 * first - latest - along);

@@ -26,8 +26,8 @@ template <class W, class S>
   return entry;
 }
 
-/// For lanes in `by_end`: enters the ball at an end of a shape. `p` is the line's point relative to
-/// the ball's centre. Returns the lanes whose line misses the ball.
+/// For lanes in `by_end`: enters the ball at one end of a shape. `p` is the line's point relative
+/// to the ball's centre. Returns the lanes whose line misses the ball.
 template <class W>
 [[gnu::always_inline]] inline Mask<W> enter_end(Entry<W>& entry, const Mask<W>& by_end, const W& r,
                                                 const Vec3<W>& p, const Line<W>& line) {

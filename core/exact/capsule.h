@@ -28,7 +28,8 @@ template <class W, class S>
   entry.e = W(2) * round.e;
   entry.normal = select<W>(by_side, round.normal(-1, r, line), entry.normal);
   // At a distance w from the circle where cylinder and ball meet, their formulas differ by w^2 / 2r
-  // across the ray. Undecided only if w^2 > E r and the line enters within w of that circle.
+  // across the ray. So the result is undecided only if w^2 > E r and the line enters within w of
+  // that circle.
   const W w2 = entry.e * entry.e * line.dd;
   const Mask<W> unsure = (w2 > r * line.E) & (beyond * beyond < w2);
 

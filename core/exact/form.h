@@ -19,22 +19,22 @@ struct Form {
   bool is_scaled = false, is_off_centre = false, is_upside_down = false;
   double R = 0;                     ///< radius of a ball around the form, in the form's frame
   double inner_R = 0;               ///< this radius before scaling
-  double largest_scale = 1;         ///< the greatest of `scale`
+  double largest_scale = 1;         ///< the greatest component of `scale`
   Vec3<double> offset = {0, 0, 0};  ///< from the form's middle to the ball's centre, before scaling
   Vec3<double> scale = {1, 1, 1};
   double slope = 0;  ///< radius of a cone per height below its apex
   double sine = 0;   ///< sine of the cone's half angle
-  /// Sizes as declared, but in the form's frame; of forms with a cone: lower radius, upper radius,
+  /// Sizes as declared, but in the form's frame. For forms with a cone: lower radius, upper radius,
   /// half height, height of the apex.
   FormSizes sizes = {};
   std::shared_ptr<const Polytope> polytope;  ///< null for other kinds
 };
 
-/// `ball_centre` is the centre of the shape's bounding ball; lengths are multiplied by `down`.
-/// Returns FormKind::none if the closed form does not hold for these sizes.
+/// Prepares a declared form. `ball_centre` is the centre of the shape's bounding ball; lengths are
+/// multiplied by `down`. Returns FormKind::none if the closed form does not hold for these sizes.
 Form form_of(const ExactForm& declared, const Vec3<double>& ball_centre, double down);
 
-/// Form of a polytope, whose middle must be the bounding ball's centre. Null has no form.
+/// Form of a polytope, whose middle must be the bounding ball's centre; no form if null.
 Form form_of(std::shared_ptr<const Polytope> polytope);
 
 }  // namespace minkray::exact

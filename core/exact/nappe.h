@@ -11,8 +11,8 @@ namespace minkray::exact {
 template <class W>
 inline constexpr Lane<W> endless = 1 / least_to_square<Lane<W>>;
 
-/// x^2 + y^2 <= slope^2 (apex - z)^2, z <= apex. R is the form's radius. The form lies within
-/// 2 max(R, apex) of the apex.
+/// The points with x^2 + y^2 <= slope^2 (apex - z)^2 and z <= apex. R is the form's radius. The
+/// form lies within 2 max(R, apex) of the apex.
 template <class W>
 struct Nappe {
   Mask<W> hit, miss;       ///< of both nappes, above and below the apex; neither: undecided
@@ -51,7 +51,8 @@ struct Nappe {
     const W w1 = W(1) + abs(t1) * per_R, w2 = W(1) + abs(t2) * per_R;
     const W e1 = base * w1 * w1, e2 = base * w2 * w2;
     // A steep line crosses the surface once in each nappe. A line that goes down enters the lower
-    // nappe at the greater parameter; a line that goes up leaves it at the lesser parameter.
+    // nappe at the greater of the two parameters; a line that goes up leaves the lower nappe at the
+    // lesser one.
     const Mask<W> first = t1 < t2, down = d.z() < W(0), enters = is_flat | down,
                   leaves = is_flat | !down;
     const Mask<W> in_first = (is_flat & first) | ((!is_flat) & !first);

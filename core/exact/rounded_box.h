@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Finds where a line enters a rounded box around the origin. The slabs of the inner box divide
 // space into shares: the regions of faces, edges and corners. Starts where the line enters the box
-// grown by the radius, and follows the line through the shares. The first share in which the line
-// enters the share's plane, cylinder or ball gives the result.
+// grown by the radius, and follows the line from share to share. In each share the surface is a
+// plane, a cylinder or a ball; the first share in which the line enters this surface gives the
+// result.
 #pragma once
 
 #include "core/exact/ball.h"
@@ -17,7 +18,7 @@ template <class W, class Sizes>
   using std::max;
   using std::min;
   using std::sqrt;
-  // A line crosses at most three pairs of planes.
+  // A line crosses at most three pairs of planes, so it passes through at most seven shares.
   constexpr int most_shares = 7;
   const W r(sizes[3]);
   // The line is mirrored so that it runs towards +x, +y, +z.
@@ -70,7 +71,7 @@ template <class W, class Sizes>
   going &= !by_face;
   if (!any(going)) return entry;
 
-  Vec3<W> begins, ends;  // parameters of the slabs of the inner box
+  Vec3<W> begins, ends;  // parameters at which the line enters and leaves the inner slabs
   for (int i = 0; i < 3; ++i) {
     const W h(sizes[static_cast<std::size_t>(i)]);
     begins[i] = (-h - s[i]) * inv[i];
@@ -78,7 +79,8 @@ template <class W, class Sizes>
   }
   W from = t;
   for (int share = 0; share < most_shares && any(going); ++share) {
-    // The share that begins at `from`: the axes along which the line is outside the slab.
+    // The share that begins at `from`. `along` selects the axes along which the line is outside the
+    // slab.
     W until(std::numeric_limits<Lane<W>>::infinity());
     Vec3<W> p, along;
     for (int i = 0; i < 3; ++i) {

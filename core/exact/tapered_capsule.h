@@ -31,7 +31,7 @@ template <class W, class S>
   entry.e = W(2) * round.in_e;
   if (any(by_side))
     entry.normal = select<W>(by_side, round.normal(round.in, sine, line), entry.normal);
-  // Undecided as for a capsule (core/exact/capsule.h).
+  // Undecided for the same reason as for a capsule (core/exact/capsule.h).
   const W w2 = entry.e * entry.e * line.dd;
   const W from_low = z - low, from_high = z - high;
   const Mask<W> unsure =

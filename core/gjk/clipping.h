@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Ray cast as clipping, after van den Bergen's later description of casting a ray on the
+// Interprets a ray cast as clipping, as van den Bergen later described the cast at the
 // configuration space obstacle: conservative advancement by supporting planes (Mirtich and Canny,
-// 1995). Any solver's iterations can be interpreted this way.
+// 1995). The iterations of any solver can be interpreted in this way.
 #pragma once
 
 #include <limits>
@@ -10,10 +10,10 @@
 
 namespace minkray {
 
-/// Each support point p along n excludes a part of the ray that cannot contain the hit point:
-///   1. n.r < 0: nothing before lambda_clip, a lower bound;
-///   2. n.r > 0: nothing after lambda_clip; if that is below the lower bound, the ray is rejected;
-///   3. n.r = 0: nothing is clipped, or the whole ray if it runs in front of the plane.
+/// Clipping by the supporting plane through the support point p along n excludes a part of the ray:
+///   1. n.r < 0: the part before lambda_clip, which is a lower bound of the hit;
+///   2. n.r > 0: the part after lambda_clip; the entire ray if this is below the lower bound;
+///   3. n.r = 0: nothing, or the entire ray if it runs in front of the plane.
 enum class ClipCase : unsigned char { lower_bound = 1, upper_bound = 2, parallel = 3 };
 
 template <class T>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The point of a simplex closest to the origin, and the vertices that it lies between: the result
-// of Johnson's distance subalgorithm, but computed by projections. Unlike determinants, they stay
-// accurate for the small and sliver-like simplices near the end of a cast.
+// The point of a simplex closest to the origin, and the vertices that it lies between. The result
+// is that of Johnson's distance subalgorithm, but computed by projections. Unlike determinants,
+// projections stay accurate for the small sliver-like simplices near the end of a cast.
 #pragma once
 
 #include <array>
@@ -58,10 +58,10 @@ ClosestPoint<T> closest_on_edge(const SimplexPoints<T>& simplex, int i, int j) {
   ClosestPoint<T> result;
   result.weights[ib] = towards_b / squared;
   result.weights[ia] = towards_a / squared;
-  // Starts from the nearer end, so that the rounded product is the smaller one.
+  // Starts from the nearer end, so that the rounded product is small.
   result.v = towards_b < towards_a ? Vec3<T>(a + result.weights[ib] * edge)
                                    : Vec3<T>(b - result.weights[ia] * edge);
-  // Makes v orthogonal to the edge once more: the direction of a short v is dominated by rounding,
+  // Makes v orthogonal to the edge again. The direction of a short v consists mostly of rounding,
   // and its support point would be a vertex that the simplex already has.
   result.v -= (result.v.dot(edge) / squared) * edge;
   result.kept = (1u << i) | (1u << j);
@@ -69,7 +69,7 @@ ClosestPoint<T> closest_on_edge(const SimplexPoints<T>& simplex, int i, int j) {
 }
 
 /// A normal of face abc, from its two shorter edges: differences of close vertices are exact, so
-/// their cross product loses no digits to cancellation.
+/// the cross product loses no digits to cancellation.
 template <class T>
 Vec3<T> face_normal(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c) {
   const Vec3<T> ab = b - a, bc = c - b, ca = a - c;
@@ -91,7 +91,8 @@ const Vec3<T>& nearest_of(const Vec3<T>& a, const Vec3<T>& b, const Vec3<T>& c,
 /// cast at a cone or a cylinder are slivers: this order keeps digits that determinants lose.
 template <class T>
 ClosestPoint<T> closest_on_face(const SimplexPoints<T>& simplex, int i, int j, int k) {
-  // P and Q are the ends of the longest edge, P is also one of the shortest; S is the third vertex.
+  // P and Q are the ends of the longest edge; P is also an end of the shortest edge. S is the third
+  // vertex.
   const auto y = [&](int index) -> const Vec3<T>& {
     return simplex.y[static_cast<std::size_t>(index)];
   };
@@ -110,8 +111,8 @@ ClosestPoint<T> closest_on_face(const SimplexPoints<T>& simplex, int i, int j, i
     const T weight_S = -from_origin.dot(across) / across_squared;
     const T weight_Q = origin_along_e - weight_S * f_along_e;
     const T weight_P = T(1) - weight_Q - weight_S;
-    // If the vertices are collinear, the direction across their line is dominated by rounding, and
-    // the edges suffice.
+    // If the vertices are collinear, the direction perpendicular to their line consists mostly of
+    // rounding. The edges then suffice.
     const Vec3<T> zero = Vec3<T>::Zero(), normal = face_normal(y(P), y(Q), y(S));
     const bool is_flat =
         !(normal.squaredNorm() >
@@ -146,9 +147,9 @@ bool beyond_face(const SimplexPoints<T>& simplex, int i, int j, int k, int l) {
   const Vec3<T> zero = Vec3<T>::Zero();
   const T height_of_vertex = normal.dot(y(l) - nearest_of(y(i), y(j), y(k), y(l)));
   const T height_of_origin = -normal.dot(nearest_of(y(i), y(j), y(k), zero));
-  // A height within the rounding of its vertex has no sign: the four points are in one plane (for
-  // example, if the support point of an octahedron's face is the face's middle) and enclose
-  // nothing.
+  // The sign of a height within the vertex's rounding is meaningless. The four points are then in
+  // one plane and enclose nothing, for example if the support point of an octahedron's face is the
+  // middle of the face.
   const T size = std::max({y(i).cwiseAbs().maxCoeff(), y(j).cwiseAbs().maxCoeff(),
                            y(k).cwiseAbs().maxCoeff(), y(l).cwiseAbs().maxCoeff()});
   const T rounding = tolerance::flat_simplex<T> * size * normal.norm();

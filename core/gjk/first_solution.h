@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// "First solution" for casting a ray: Algorithm 1 of van den Bergen (2004), section 2. The ray is
-// clipped repeatedly by the supporting plane at c, the object's point closest to x, which a nested
-// GJK distance query finds. Slow; a reference for the other solvers. In the paper, n = x - c is a
-// normal at c. Points are relative to the centre of the bounding ball; lambda is a length from
-// the ray's closest approach to that centre.
+// "First solution" for casting a ray: Algorithm 1 of van den Bergen (2004), section 2. Clips the
+// ray repeatedly by the supporting plane at c, the object's point closest to x, which a nested GJK
+// distance query finds. Slow; a reference for the other solvers. As in the paper, n = x - c is a
+// normal at c. Points are relative to the bounding ball's centre; lambda is a length from the point
+// of the ray closest to that centre.
 #pragma once
 
 #include "core/gjk/gjk_distance.h"
@@ -70,7 +70,8 @@ requires SupportMapped<S, T> CastResult<T> first_solution(
     // True if x is close enough to c, or inside the object at the beginning.
     const bool is_close = closest.status == DistanceStatus::overlapping ||
                           closest.distance <= tolerance::gjk_rounding<T> * ball.radius;
-    // The nested query's best plane replaces the plane through c: it never cuts into the object.
+    // Clips by the nested query's best plane instead of the plane through c: that plane never cuts
+    // into the object.
     const Vec3<T> axis = closest.axis;
     observer(CastIteration<T>{lambda, x, axis, c, x - c, {}});
     if (is_close) return finish();

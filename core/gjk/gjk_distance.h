@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The GJK distance algorithm: Algorithm 2 of van den Bergen (2004), section 3, in 2D and 3D, in the
-// paper's letters: v is the simplex' point closest to the origin, w the support point s(-v), Y the
-// simplex with w, W the smallest subset of Y whose convex hull contains v. The obstacle is C = {x}
-// - (A - B): x is the offset of the two objects' centres or, if B is a point, the query point.
+// The GJK distance algorithm: Algorithm 2 of van den Bergen (2004), section 3, in 2D and 3D.
+// Letters: v is the simplex' point closest to the origin, w the support point s(-v), Y the simplex
+// with w, W the smallest subset of Y whose convex hull contains v. The obstacle is C = {x} - (A -
+// B), where x is the offset of the objects' centres or, if B is a point, the query point.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct SupportPair {
 
 template <class T, int Dim>
 struct DistanceOptions {
-  /// Relative; see tolerance::distance_gap.
+  /// Relative gap; see tolerance::distance_gap.
   T gap = tolerance::distance_gap<T>;
   int max_iterations = tolerance::distance_max_iterations;
   /// Initial direction from A to B, such as the previous frame's axis; zero for none.
@@ -101,8 +101,8 @@ DistanceResult<T, Dim> gjk_distance(const Supports& supports, const Vec<T, Dim>&
       return result;
     }
 
-    // Tests if v is close enough to the obstacle's point closest to the origin. The first v need
-    // not be a point of the obstacle, so it is not tested.
+    // Tests if v is close enough to the obstacle's point closest to the origin. The first v may not
+    // be a point of the obstacle, so this v is not tested.
     const unsigned before = Y.used();
     bool is_close_enough = false;
     if (before != 0) {

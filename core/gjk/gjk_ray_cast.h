@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // GJK ray cast: Algorithm 3 of G. van den Bergen, "Ray Casting against General Convex Objects with
-// Application to Continuous Collision Detection" (2004), section 4. Letters: x = s + lambda r is
-// the ray; p a support point, w = x - p; P the simplex' support points, Y = x - P; v the point
-// of Y closest to the origin, which is also the next direction; n the last v that moved lambda.
-// Points are relative to the bounding ball's centre, lambda to the ray's closest approach.
+// Application to Continuous Collision Detection" (2004), section 4. x = s + lambda r is on the ray;
+// p a support point, w = x - p; P the simplex' support points, Y = x - P; v the point of Y closest
+// to the origin and the next direction; n the last v that moved lambda. Points are relative to the
+// bounding ball's centre, lambda to the ray's point closest to that centre.
 #pragma once
 
 #include <array>
@@ -50,9 +50,8 @@ void observe(Observer& observer, const G& Y, CastIteration<T> iteration) {
 }  // namespace detail
 
 /// Returns the least parameter at which the ray is in the shape; if the ray begins inside, the
-/// parameter of the ray's origin. `ball` must contain the shape, and the ray must be relative to
-/// the ball's centre. `Y` is the distance subalgorithm (subalgorithm.h), which also keeps the
-/// simplex.
+/// parameter of its origin. `ball` must contain the shape, and the ray must be relative to the
+/// ball's centre. `Y` is the distance subalgorithm (subalgorithm.h), which also stores the simplex.
 template <class T, class S, class Observer = NoObserver, class G = ProjectionSubalgorithm<T, 3>>
 requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const RayNearBall<T>& near,
                                                         const Ball<T>& ball,
@@ -125,7 +124,8 @@ requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const Ra
         show();
         return miss(v);
       }
-      // Clipped beyond the ball's far side: the ball's tangent plane there separates the rest.
+      // Clipped beyond the ball's far side: the ball's tangent plane there separates the rest of
+      // the ray.
       if (clipped > depth + tolerance::ball_padding<T> * ball.radius) {
         show();
         return miss(joined_plane(Vec3<T>(s + depth * r), v, r));
@@ -140,7 +140,8 @@ requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const Ra
       }
     }
 
-    // Adds p to the simplex unless it is there: the paper allows p to recur after a clip.
+    // Adds p to the simplex unless the simplex has it: as the paper permits, p may recur after a
+    // clip.
     const bool repeated = Y.holds(p);
     const int slot = repeated ? -1 : Y.add(p);
     const T furthest = Y.furthest_squared();
@@ -153,7 +154,7 @@ requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const Ra
 
     const bool unchanged = repeated || !Y.uses(slot);
 
-    // Close enough, or as close as rounding allows.
+    // Ends if v is close enough to zero, or as close as rounding allows.
     const T previous = v_squared;
     v_squared = v.squaredNorm();
     const T v_size = std::sqrt(v_squared) / ball.radius;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Johnson's distance subalgorithm (van den Bergen, 2004, section 3): finds the simplex' point
-// closest to the origin from determinants of its subsets. Differences of vertices are cached as
-// long as both vertices are used; determinants are recomputed when x moves (section 4).
+// closest to the origin from determinants of its subsets. Differences of vertices are cached while
+// both vertices are used. Determinants are computed again when x moves (section 4).
 #pragma once
 
 #include "core/gjk/simplex_vertices.h"
@@ -24,7 +24,7 @@ class JohnsonSubalgorithm : public SimplexVertices<T, Dim> {
   /// Starts without vertices, at x.
   void begin(const Vec<T, Dim>& x) { Base::clear(x); }
 
-  /// Moves x: translates the vertices and recomputes the determinants.
+  /// Moves x: translates the vertices and computes the determinants again.
   void move(const Vec<T, Dim>& x) {
     Base::translate(x);
     for (unsigned X = 1; X <= Base::all_slots; ++X)
@@ -59,7 +59,7 @@ class JohnsonSubalgorithm : public SimplexVertices<T, Dim> {
   T& determinant(unsigned X, int i) { return determinants_[X][static_cast<std::size_t>(i)]; }
   T determinant(unsigned X, int i) const { return determinants_[X][static_cast<std::size_t>(i)]; }
 
-  /// D_j(X) for all j in X, from those of the subsets of X with one element less.
+  /// Computes D_j(X) for all j in X, from the determinants of the subsets with one vertex less.
   void compute_determinants(unsigned X) {
     for (int j = 0; j < Base::slots; ++j) {
       if (!(X & (1u << j))) continue;
@@ -77,14 +77,14 @@ class JohnsonSubalgorithm : public SimplexVertices<T, Dim> {
     }
   }
 
-  /// (i): v(aff X) lies in the interior of conv X.
+  /// First condition: v(aff X) lies in the interior of conv X.
   bool is_inside(unsigned X) const {
     for (int i = 0; i < Base::slots; ++i)
       if ((X & (1u << i)) && !(determinant(X, i) > T(0))) return false;
     return true;
   }
 
-  /// (ii): no other vertex lies on the origin's side of v(aff X).
+  /// Second condition: no other vertex lies on the origin's side of v(aff X).
   bool none_other_helps(unsigned X) const {
     for (int j = 0; j < Base::slots; ++j)
       if (this->uses(j) && !(X & (1u << j)) && !(determinant(X | (1u << j), j) <= T(0)))

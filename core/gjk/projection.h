@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Distance subalgorithm by projections (core/gjk/closest_point.h): the default of the solvers. A
-// simplex in 2D is treated as a flat one in 3D, without loss.
+// simplex in 2D is treated as a flat simplex in 3D, without loss of precision.
 #pragma once
 
 #include "core/gjk/closest_point.h"

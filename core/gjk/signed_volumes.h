@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The signed volumes distance subalgorithm: M. Montanari, N. Petrinic, E. Barbieri, "Improving the
-// GJK Algorithm for Faster and More Reliable Distance Queries Between Convex Objects", ACM
-// Transactions on Graphics 36(3), 2017, section 4. The barycentric coordinates of the origin's
-// projection are ratios of volumes, areas and lengths, measured where the simplex' shadow on a
-// coordinate plane or axis is largest; a coordinate of the wrong sign selects the face to examine.
+// GJK Algorithm for Faster and More Reliable Distance Queries Between Convex Objects", 2017,
+// section 4. Barycentric coordinates of the origin's projection are ratios of volumes, areas and
+// lengths. These are measured on the coordinate plane or axis where the simplex' projection
+// ("shadow") is largest. A coordinate of the wrong sign selects a face.
 #pragma once
 
 #include "core/gjk/simplex_vertices.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The vertices of a simplex as the distance subalgorithms store them, and their result. A vertex
-// keeps its slot, so that data cached for it stays valid. In the paper's letters: x is a point, p a
-// support point of the object C, y = x - p a vertex of the simplex in {x} - C, and v the simplex'
-// point closest to the origin. In a ray cast x moves, which translates all y by the same vector.
+// keeps its slot, so that data cached for the slot stay valid. In the paper's letters, x is a
+// point, p a support point of the object C, y = x - p a vertex of the simplex in {x} - C, and v the
+// simplex' point closest to the origin. When x moves in a ray cast, all y move by the same vector.
 #pragma once
 
 #include <algorithm>
@@ -46,7 +46,7 @@ class SimplexVertices {
     return false;
   }
 
-  /// Maximum of |y|^2 over the vertices; the paper's termination test is relative to it.
+  /// Maximum of |y|^2 over the vertices. The paper's termination test is relative to this value.
   T furthest_squared() const {
     T furthest = T(0);
     for (int i = 0; i < slots; ++i)
@@ -69,7 +69,7 @@ class SimplexVertices {
       if (uses(static_cast<int>(i))) y_[i] = x - p_[i];
   }
 
-  /// At least one slot must be free.
+  /// Requires a free slot.
   int insert(const Vec<T, Dim>& p) {
     int slot = 0;
     while (uses(slot)) ++slot;

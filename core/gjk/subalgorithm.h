@@ -11,7 +11,7 @@
 
 namespace minkray {
 
-/// Call begin(x), then repeatedly add(p) or move(x), closest() and keep(). There are never more
+/// Usage: begin(x), then repeatedly add(p) or move(x), closest() and keep(). There are never more
 /// than `slots` vertices.
 template <class G>
 concept DistanceSubalgorithm = requires(G g, const G& c,

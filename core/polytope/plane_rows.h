@@ -11,8 +11,7 @@
 namespace minkray::exact {
 
 /// The planes n.x = offset as rows of numbers, four planes per row: n.x, n.y, n.z, offset, depth.
-/// The depth is the distance by which the plane would have to move inwards to be below its
-/// triangles.
+/// The depth is the distance from the plane down to the lowest corner of its triangles.
 class PlaneRows {
  public:
   static constexpr std::size_t planes_a_row = 4, numbers_a_plane = 5;
@@ -31,8 +30,8 @@ class PlaneRows {
   std::size_t size_ = 0;
 };
 
-/// The plane that a line enters last, and the plane that it leaves first; among ties the first
-/// plane.
+/// The plane that a line enters last, and the plane that it leaves first; the first of several
+/// planes with equal parameters.
 struct PlaneScan {
   double in = 0, out = 0;
   /// The latest entry, and the earliest exit, if all planes are moved inwards by their depths and

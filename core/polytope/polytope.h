@@ -17,8 +17,8 @@ namespace minkray::exact {
 class Polytope {
  public:
   /// Null if there are no facets or too many points, or if the hull is flat or not thicker than the
-  /// depths of its planes. For rounded_by > 0, also null if the hull is not convex, or if its
-  /// triangles are so low that rounding confuses their features. Points are multiplied by `down`
+  /// depths of its planes. If rounded_by > 0, also null if the hull is not convex, or if its
+  /// triangles are so low that rounding confuses adjacent features. Multiplies points by `down`
   /// first.
   static std::shared_ptr<const Polytope> of(const PointCloud& points, const Vec3<double>& middle,
                                             double down, double rounded_by = 0);

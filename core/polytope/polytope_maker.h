@@ -145,8 +145,8 @@ class Polytope::Maker {
     }
     const double room = static_cast<double>(least) / made_.radius_;
     if (!(room > tolerance::rounded_polytope_height)) return false;
-    // A feature that seems to fall may rise: by no more than rounding if it is adjacent, and by
-    // proportionally more if it is further away.
+    // A feature that seems to fall away may in fact rise. If it is adjacent, it rises by no more
+    // than rounding; if it is further away, by proportionally more.
     made_.radius_ += made_.tables_.rounded_by;
     made_.rounding_ = tolerance::polytope_rounding * made_.radius_ + 2 * made_.rounding_ / room;
     return true;
@@ -170,7 +170,7 @@ class Polytope::Maker {
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
   }
 
-  /// Corners counter-clockwise from outside; twins of the half-edges from each corner to the next.
+  /// Corners counter-clockwise from outside. `twin` has the twin of the half-edge from each corner.
   struct Triangle {
     std::array<std::uint32_t, 3> corner, twin;
   };

@@ -87,8 +87,8 @@ class RoundedWalk {
   static Vec3<W> along(const Numbers& of) { return vector(of, 8); }
   static W length(const Numbers& of) { return of[11]; }
 
-  /// Goes to a half-edge's triangle or, if the triangle faces away, to the nearer of its other two
-  /// edges.
+  /// Continues at a half-edge's triangle. If that triangle faces away, continues at the nearer of
+  /// its two other edges.
   void go_over(const Mask<W>& which, const W& edge) {
     const PlaneRow<W> plane(of_, plane_of(of_, edge));
     const Mask<W> faces = plane.normal.dot(line_.d) < W(-least_component<W>);
@@ -106,8 +106,8 @@ class RoundedWalk {
     go_to(away, feature::edge, select(distance(second) < distance(third), second, third));
   }
 
-  /// The line is from + t way, both perpendicular to the axis; `across` is the squared length of
-  /// `way`.
+  /// The line has the points from + t way; both vectors are perpendicular to the axis. `across` is
+  /// the squared length of `way`.
   Contact contact(const Vec3<W>& from, const Vec3<W>& way, const W& across) const {
     using std::abs;
     using std::max;
@@ -189,8 +189,8 @@ class RoundedWalk {
     const W at = s_along + d_along * found.t;
     leave(at < W(0), feature::vertex, here);
     leave(at > length(edge), feature::vertex, next(edge));
-    // The edge supports if both adjacent triangles fall away. If these are in one plane, the
-    // triangles behind them must fall away, too.
+    // The edge supports if both adjacent triangles fall away from its contact. If these two are in
+    // one plane, the triangles beyond them must fall away, too.
     if (!any(which)) return;
     const W other = twin(edge);
     const W rise = found.out.dot(inwards(edge));
@@ -263,8 +263,8 @@ void find_lost(const PolytopeTables& of, const Line<W>& line, const Mask<W>& los
 }
 
 /// Finds where lines that meet the ball enter the polytope grown by a radius. Starts from a face
-/// whose normal is likely to be near that of the entry. If this face faces away, starts where the
-/// line passes the polytope without radius.
+/// whose normal is likely to be near that of the entry. If this face does not face the line, starts
+/// where the line passes the polytope without the radius.
 template <class W>
 Entry<W> enter_features(const PolytopeTables& of, const Line<W>& line, const Mask<W>& open) {
   WalkEnd<W> start;

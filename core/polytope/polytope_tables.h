@@ -17,15 +17,15 @@ struct PolytopeTables {
   static constexpr std::size_t vertex_row = 4;
   std::vector<double> vertices;
 
-  /// One row per half-edge: the third corner of the triangle beyond it, and the half-edge after its
-  /// twin (negative if it is the last of its triangle).
+  /// One row per half-edge: the opposite corner of the triangle beyond the edge, and the half-edge
+  /// that follows the twin, with a minus sign if that half-edge is the last of its triangle.
   static constexpr std::size_t walk_row = 4;
   std::vector<double> walk;
   std::vector<std::int32_t> links;  ///< copy of the fourth column
 
-  /// One row per half-edge: its origin, the next half-edge; the unit vector into the triangle,
-  /// perpendicular to the edge, the twin; the unit vector along the edge, the edge's length. Empty
-  /// if the polytope is not rounded.
+  /// One row per half-edge: its origin (3 numbers), the next half-edge; a unit vector into the
+  /// triangle, perpendicular to the edge (3), the twin; the unit vector along the edge (3), the
+  /// edge's length. Empty if the polytope is not rounded.
   static constexpr std::size_t feature_row = 12;
   std::vector<double> features;
 

@@ -11,8 +11,9 @@
 
 namespace minkray::exact {
 
-/// End of a walk: in a triangle that the line passes through (clearly or within rounding) or, if
-/// the line misses, at an edge of the outline. If neither mask is set, the walk failed.
+/// End of a walk. If `through`, in a triangle that the line passes through, clearly or within
+/// rounding. If the line misses, at an edge of the outline. If neither mask is set, the walk
+/// failed.
 template <class W>
 struct WalkEnd {
   Mask<W> in_triangle = Mask<W>(false), is_clear = Mask<W>(false), past_edge = Mask<W>(false);
@@ -67,7 +68,7 @@ WalkEnd<W> follow(const PolytopeTables& of, const Line<W>& line, Mask<W> open) {
   using std::abs;
   const View<W> view(line);
   std::array<Seen<W>, 3> p;
-  // The triangle's half-edges, and for each twice the area of the triangle it forms with the line.
+  // The triangle's half-edges; for each, twice the area of its triangle with the projected line.
   std::array<W, 3> edge, side;
   const auto begin_at = [&](const W& first) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -185,7 +186,7 @@ Entry<W> enter_planes(const PolytopeTables& of, const Line<W>& line, const Mask<
     const WalkEnd<W> end = follow(of, line, open);
     const Mask<W> through = end.in_triangle & end.is_clear;
     const W plane = plane_of(of, end.edge);
-    // If the line is nearly in a triangle's plane, rounding decides if the line enters between the
+    // If the line is nearly in a triangle's plane, rounding decides whether it enters between the
     // triangle's edges. Such lines are tested against all planes.
     if (any(through))
       settle_hit(of, plane, line, through, tolerance::uncertain_slope<Lane<W>>, entry);

@@ -82,8 +82,9 @@ struct FormInLanes {
 static_assert(offsetof(ScreenForm, slope) == 16 && offsetof(ScreenForm, scale) == 32 &&
               offsetof(ScreenForm, offset) == 48 && sizeof(ScreenForm) == 64);
 
-/// Tests lines in lanes against all planes of one polytope. E includes the rounding of planes to
-/// float: the rounding of normal, offset and sums is less than 2^-21 of the size of near positions.
+/// Tests one line per lane against all planes of one polytope. E includes the rounding of planes to
+/// float: normal, offset and sums together have an error of less than 2^-21 of the size of near
+/// positions.
 [[gnu::always_inline]] inline exact::Entry<W> enter_planes_alike(const FormInLanes& form,
                                                                  const exact::Line<W>& line,
                                                                  const Mask<W>& open) {

@@ -22,8 +22,8 @@ inline constexpr int screen_lanes = 8;
 struct alignas(64) ScreenForm {
   std::array<float, 4> sizes = {};
   float slope = 0, sine = 0, R = 0;
-  /// Least radius of curvature. The bounds require that errors of positions are small relative to
-  /// this and to R.
+  /// Least radius of curvature. The error bounds require that errors of positions are small
+  /// relative to this radius and to R.
   float least = 0;
   std::array<float, 3> scale = {1, 1, 1};
   /// Magnitude of positions near the form, in the form's frame.
@@ -32,8 +32,8 @@ struct alignas(64) ScreenForm {
   float up = 1;  ///< -1: upside down
 };
 
-/// Screening data of a definition: its form or, if lanes do not support the form, a box around the
-/// shape.
+/// Screening data of a definition: its closed form, or a box around the shape if lanes do not
+/// support the form.
 struct Screen {
   ScreenForm form;
   FormKind kind = FormKind::none;  ///< none: the definition cannot be screened in lanes

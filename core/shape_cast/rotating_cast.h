@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Continuous collision detection of turning bodies by the approximation of van den Bergen (2004),
-// section 1: orientations change in fixed steps, positions are interpolated.
+// Continuous collision detection of rotating bodies, by the approximation of van den Bergen (2004),
+// section 1: orientations change in fixed steps, and positions are interpolated.
 #pragma once
 
 #include "core/shape_cast/shape_cast.h"
@@ -18,13 +18,13 @@ struct MovingBody {
 
 struct RotatingCastResult {
   Status status = Status::exhausted;
-  double t = 0.0;               ///< the approximation's first contact
-  double t_lo = 0.0;            ///< no true contact before this; a miss: none at all if `proven`
-  bool proven = false;          ///< a miss holds for the true motion too
-  double position_error = 0.0;  ///< bound on the true bodies' gap, or overlap, at t
+  double t = 0.0;               ///< first contact of the approximated motion
+  double t_lo = 0.0;            ///< no true contact before this time
+  bool proven = false;          ///< for a miss: the true motion has no contact, either
+  double position_error = 0.0;  ///< bound of the gap or overlap of the true bodies at t
   Vec3<double> point_a = Vec3<double>::Zero(), point_b = Vec3<double>::Zero(),
                normal = Vec3<double>::Zero();
-  int steps = 0;  ///< that were cast
+  int steps = 0;  ///< number of steps that were cast
   int iterations = 0;
   int supports = 0;
 };
@@ -33,9 +33,9 @@ struct RotatingCastResult {
 ///
 /// Within a step of length h, each orientation is that of the step's middle. The error of a point
 /// at distance rho from its body's pivot is at most 2 rho sin(|omega| h / 4) <= rho |omega| h / 2;
-/// `position_error` is the sum for the two bodies. A second cast uses the obstacle grown by
-/// position_error, whose first contact is never later than the true contact. So t_lo is a proven
-/// bound, and t is the result of the approximation.
+/// `position_error` is the sum of the errors of the two bodies. t is the result for the
+/// approximated motion. A second cast uses the obstacle grown by position_error; its first contact
+/// is never later than the true contact, and gives the proven bound t_lo.
 RotatingCastResult cast_rotating(const MovingBody& a, const MovingBody& b, double duration,
                                  int steps, const CastOptions& options = {});
 

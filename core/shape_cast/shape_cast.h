@@ -40,19 +40,22 @@ struct ShapeCastResult {
   /// contact, in the world. Miss: the normal of a plane that separates B from A at all times.
   /// Inside: zero.
   CastResult<double> cast;
-  /// Hit or inside: the contact point on A, and on B at the time of impact, in the world. Their
-  /// difference is what rounding left, more where they graze. Inside: a common point at t = 0.
+  /// Hit or inside: the contact point on A and the contact point on B at the time of impact, in the
+  /// world. The two differ by rounding errors, which are larger for grazing contacts. Inside: a
+  /// common point at t = 0.
   Vec3<double> point_a = Vec3<double>::Zero();
   Vec3<double> point_b = Vec3<double>::Zero();
 };
 
-/// The first contact with 0 <= t <= t_max. B moves by t * direction, which may be zero or denormal:
-/// then the two meet (status inside) or not (miss). Overlapping or touching at the start: inside.
+/// Finds the first contact with 0 <= t <= t_max. B moves by t * direction. If the direction is zero
+/// or denormal, the status is inside or miss. The status is also inside if the shapes overlap or
+/// touch at the start.
 ShapeCastResult cast_shape(const PreparedPair& pair, const Vec3<double>& direction,
                            double t_max = std::numeric_limits<double>::infinity(),
                            const CastOptions& options = {}, const CastObserver& observer = {});
 
-/// Both shapes move, each by its velocity, over the times 0 to `duration`.
+/// Finds the first contact of two moving shapes, each with its velocity, at times from 0 to
+/// `duration`.
 ShapeCastResult cast_shapes(const PreparedPair& pair, const Vec3<double>& velocity_a,
                             const Vec3<double>& velocity_b, double duration,
                             const CastOptions& options = {});

@@ -15,12 +15,12 @@ namespace {
 constexpr int all_rays = static_cast<int>(rays_of_block);
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Largest difference of a ray's direction from the block's middle direction, relative to the
-/// largest component of the latter. Blocks with larger differences save no time.
+/// Largest difference between a ray's direction and the block's middle direction, relative to the
+/// largest component of the middle direction. Blocks with larger differences save no time.
 constexpr double widest = 0.25;
 
-/// Padding of box tests. Allows for 16 roundings; the two ray parameters that are compared are
-/// rounded five times each.
+/// Padding of box tests, for 16 roundings. Tests compare two ray parameters with five roundings
+/// each.
 constexpr float block_padding = 1 + 8 * std::numeric_limits<float>::epsilon();
 
 struct alignas(32) Block {

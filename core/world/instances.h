@@ -67,8 +67,8 @@ class Instances {
     are_boxes_stale_ = true;
   }
 
-  /// Returns the pose of an instance exactly as given: for meshes, and for shapes that are no
-  /// Transform and have a pose that keeps lengths. Returns nullopt for other instances.
+  /// Returns the pose of an instance exactly as given. Available for meshes, and for shapes that
+  /// are not a Transform and have a pose that keeps lengths; nullopt for other instances.
   std::optional<Affine<double>> plain_pose(std::size_t i) const;
 
   /// Shows the i-th instance to rays of these kinds only. Call after all instances are added.
@@ -102,7 +102,7 @@ class Instances {
   Vec3<double> turned(std::size_t i, const Vec3<double>& direction, double time) const {
     return movements_.empty() ? direction : movements_[i].turned(direction, time);
   }
-  /// Converts the result of a cast of the ray that seen_by() returned to the world.
+  /// Converts the result of a cast to the world; the cast's ray is from seen_by().
   CastResult<double> turned(std::size_t i, CastResult<double> cast, double time) const {
     if (!movements_.empty()) cast.normal = movements_[i].turned(cast.normal, time);
     return cast;
@@ -186,8 +186,8 @@ class Instances {
   const std::vector<InstanceBody>& bodies() const { return bodies_; }
   const Screen* screens() const { return screens_.data(); }
 
-  /// Returns the kind of closed form that all shapes have that rays can hit, if each shape equals
-  /// its form; otherwise FormKind::none.
+  /// Returns the kind of closed form that all shapes share that any ray can hit. Returns
+  /// FormKind::none if kinds differ, or if a shape is not exactly its closed form.
   FormKind kind_of_all() const;
 
   [[gnu::always_inline]] void prefetch(std::size_t i) const { __builtin_prefetch(&places_[i]); }
@@ -201,7 +201,7 @@ class Instances {
   /// Half the longest side of the instance's box in the world, up to rounding; 0 for a half-space.
   double half_extent(std::size_t i) const;
 
-  /// Moves out the bounding boxes of the instances, which include rounding errors. Boxes of
+  /// Moves out the bounding boxes of the instances. The boxes allow for rounding errors; those of
   /// half-spaces are undefined. Call once after each change.
   FirstTouchVector<Bounds<float>> take_boxes() { return std::exchange(boxes_, {}); }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Casts pairs of a ray and an instance exactly. Pairs whose shape has a closed form are queued and
-// cast four at a time. The others are sorted, so that one instance is cast at by all its rays.
+// cast four at a time. All other pairs are sorted by instance.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ struct OpenPair {
   float first;
 };
 
-/// True if pairs with the instance wait for packets.
+/// True if the instance's shape has no closed form, so that its pairs are cast last.
 inline bool is_formless(const Instances& instances, std::uint32_t instance) {
   return instances.body_of(instance).definition->form().kind == FormKind::none;
 }
@@ -34,7 +34,7 @@ class PairCaster {
         rays_(rays),
         counts_(counts),
         on_found_(std::move(on_found)) {
-    // Queues need enough rays to fill them.
+    // Queues are worthwhile only if there are enough rays to fill them.
     has_queues_ = instances.bodies().size() <= rays.size() && !instances.move();
   }
 

@@ -33,8 +33,8 @@ struct MeshCast {
   std::uint32_t part = no_part;
 };
 
-/// Least distance of hits from the origin for a ray that starts on the mesh; nearer hits are due to
-/// rounding of the origin. Relative to the mesh's size and the ray's distance from the mesh.
+/// Least distance of hits from the origin of a ray that starts on the mesh; nearer hits are due to
+/// rounding of the origin. Relative to the mesh's size plus the ray's distance from the mesh.
 inline constexpr double leaving_mesh = 0x1p-36;
 
 /// Finds the first triangle that the ray hits at t <= `most`, which may be infinite. `leaves`: the
@@ -49,14 +49,14 @@ CastResult<double> cast_exit(const PosedMesh& posed, const Ray<double>& ray);
 /// ray ends at ray.t_max within a closed mesh. The normal points along the ray.
 MeshCast cast_last_exit(const PosedMesh& posed, const Ray<double>& ray, double loss);
 
-/// A triangle that the ray passes; the normal is that of the triangle's front, by the order of its
-/// vertices.
+/// A triangle that the ray passes through. The normal is on the triangle's front, given by the
+/// order of its vertices.
 struct MeshCrossing {
   MeshCast at;
   bool leaves = false;  ///< the ray goes with the normal
 };
-/// Appends all triangles that the ray passes, in the order of crossings(). Returns false if numbers
-/// are too large.
+/// Appends all triangles that the ray passes through, in the order of crossings()
+/// (core/mesh/crossings.h). Returns false if numbers are too large.
 bool add_crossings(const PosedMesh& posed, const Ray<double>& ray, double loss,
                    std::vector<MeshCrossing>& to);
 

@@ -15,7 +15,7 @@ inline constexpr std::size_t rays_of_block = 64;
 
 /// Result for the rays of a block. All floats are values of the ray parameter t.
 struct alignas(32) BlockAnswer {
-  /// Indexed by ray. A certain hit is one that float lanes have proven. Hits beyond `limit` do not
+  /// Indexed by ray. A hit is certain if float lanes have proven it. Hits beyond `limit` do not
   /// matter. `lo` is a lower bound of t for the ray's certain hit; infinite for rays without one.
   float limit[rays_of_block], lo[rays_of_block];
   std::uint32_t instance[rays_of_block];  ///< instance of the certain hit, or no_instance

@@ -63,8 +63,8 @@ class World {
   bool occluded(const WorldRay& ray, QueryCounts& counts) const;
 
   /// Appends all points with 0 <= t <= t_max where the ray enters or leaves an instance, by t and
-  /// instance. An instance in which the ray begins is only left, one in which it ends only entered.
-  /// Ignores all of `skip`.
+  /// instance. If the ray begins inside an instance, only the exit is appended; if it ends inside,
+  /// only the entry. Ignores `skip` completely.
   void all_hits(const WorldRay& ray, std::vector<WorldCrossing>& to, QueryCounts& counts) const;
 
   /// Finds the first hits of many rays. Faster in large batches, and if consecutive rays are
@@ -130,11 +130,11 @@ class World {
   void blocked_by_shapeless(const RaySpan& rays, std::span<std::uint8_t> met,
                             QueryCounts& counts) const;
 
-  /// Traces 16 to 64 rays that form a block: from one point in similar directions, so that they
-  /// share one traversal of the BVH (ray_block.h). Returns false, without results, if they do not.
+  /// Traces 16 to 64 rays from one point in similar directions, with one traversal of the BVH
+  /// (ray_block.h). Returns false, without results, if the rays are not of this form.
   bool answer_block(const RaySpan& rays, std::size_t first, HitReceiver& to,
                     QueryCounts& counts) const;
-  /// Casts a stream: up to rays_of_stream rays in any directions, which traverse the BVH in turns.
+  /// Traces a stream: up to rays_of_stream rays in any directions, which traverse the BVH in turns.
   /// Reports the i-th ray to `to` as ray `first` + i.
   void answer_stream(const RaySpan& rays, std::size_t first, HitReceiver& to,
                      QueryCounts& counts) const;
@@ -151,7 +151,7 @@ class World {
   Bvh mesh_boxes_;  ///< contains the meshes, by their index in Instances::meshes()
   std::vector<Bounds<float>> boxes_of_meshes_;
   BvhBuild build_ = BvhBuild::quality;
-  /// Left out of the BVH; by the instances that they are the same as.
+  /// Instances left out of the BVH as copies, sorted by the instance that they equal.
   std::vector<RepeatedInstance> repeated_;
   double visits_as_built_ = 0;  ///< expected per ray; 0: not known yet
   CastOptions options_;

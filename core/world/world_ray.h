@@ -83,9 +83,9 @@ struct WorldHit {
 /// A point where a ray enters or leaves an instance.
 struct WorldCrossing {
   std::uint32_t instance = no_instance;
-  std::uint32_t part = no_part;      ///< of a mesh: the triangle
+  std::uint32_t part = no_part;      ///< number of the triangle, for a mesh
   double t = 0, t_lo = 0, t_hi = 0;  ///< t and its bounds
-  Vec3<double> point, normal;        ///< the normal is outward; of a mesh, by the order of vertices
+  Vec3<double> point, normal;        ///< outward normal; for a mesh, by the order of vertices
   bool leaves = false;
 };
 
@@ -103,8 +103,8 @@ struct WorldRay {
   }
 };
 
-/// View of the caller's array of rays, a fixed number of bytes apart: WorldRays or plain rays.
-/// Plain rays skip no instance, have time 0 and are of all kinds.
+/// View of the caller's array of rays (WorldRays or plain rays), which are a fixed number of bytes
+/// apart. Plain rays skip no instance, have time 0 and are of all kinds.
 class RaySpan {
  public:
   RaySpan(std::span<const WorldRay> rays)
