@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A shape relative to its own middle: the middle's place in the world is stored separately, so that
+// A shape relative to its own middle. The middle's place in the world is stored separately, so that
 // queries on two shapes are as precise a kilometre from the world's origin as at the origin.
 #pragma once
 
@@ -18,7 +18,7 @@ struct CentredShape {
 };
 
 /// `pose` maps the shape's frame to the world; it must be invertible. Affine maps around the shape
-/// are joined, and their translation goes into the centre.
+/// are composed with the pose, and the translation of the result goes into the centre.
 inline CentredShape centred(Shape shape, const Affine<double>& pose = {}) {
   Affine<double> to_world = pose;
   while (const auto* transform = std::get_if<Transform>(&shape.kind)) {
@@ -32,7 +32,7 @@ inline CentredShape centred(Shape shape, const Affine<double>& pose = {}) {
   if (!in_place || to_world.linear != Mat3<double>::Identity())
     shape = Transform{shape, Affine<double>{to_world.linear, -(to_world.linear * middle)}};
   const double radius = bounds_of(shape).half_extents().stableNorm();
-  // The box's middle is the centre up to rounding, which the radius allows for.
+  // The centre is the box's middle only up to rounding; the larger radius allows for this.
   return {std::move(shape), centre, radius * (1.0 + 16.0 * std::numeric_limits<double>::epsilon())};
 }
 

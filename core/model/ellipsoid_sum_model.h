@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The model of a sum of ellipsoids. Its support function is a sum of roots, so the direction of the
-// hit is found without support calls: by osculating ellipsoids, as in SmoothModel, or where these
-// fail, by ellipsoids that contain the sum and touch it. One support call then proves the hit.
-// Casts that are not settled by then continue as SmoothModel.
+// The model of a sum of ellipsoids. Its support function is a sum of square roots, so the hit's
+// direction is found without support calls: by osculating ellipsoids, as in SmoothModel, or by
+// ellipsoids that contain the sum and touch it. One support call then proves the hit. If it does
+// not, the cast continues as SmoothModel.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ class EllipsoidSumModel {
     const Vec3<W>& support_point(const Vec3<W>&) const { return s; }
   };
 
-  /// `sum` must be the shape.
+  /// `sum` must represent the shape exactly.
   EllipsoidSumModel(const S& shape, const EllipsoidSum<T>& sum, const Vec3<T>& centre,
                     const Vec3<W>& s, const Vec3<W>& r, T R)
       : shape_(shape), sum_(sum), centre_(centre), s_(s), r_(r), frame_(r), R_(R) {
@@ -60,10 +60,11 @@ class EllipsoidSumModel {
     const Vec3<W> n_frame = smooth_->to_frame(n);
     ModelHit<W> hit = smooth_->step(smooth_->support(n_frame, Mask<W>(true)), n_frame, iteration);
     hit.m = smooth_->to_shape(hit.m);
-    // No direction across the ray has less support than the requested one.
+    // The support function has its minimum over directions across the ray in the requested
+    // direction.
     hit.repeated |= across_;
-    // A plane that is right up to rounding, but so steep that rounding is large along the ray: the
-    // next direction shows if the ray is tangent.
+    // The plane confirms the hit up to rounding, but is so nearly parallel to the ray that rounding
+    // is large along the ray. The next direction shows whether the ray is tangent.
     const W missing = feature.support_function(n) - height_ * against_ray(n);
     across_ = hits_ & (abs(missing) <= W(tolerance::jet_gap<T> * R_));
     hits_ = Mask<W>(false);
@@ -104,7 +105,7 @@ class EllipsoidSumModel {
   };
   static Form zero() { return {W(0), W(0), W(0), W(0), W(0), W(0)}; }
 
-  /// Same as EllipsoidBody::alone, for the ellipsoid with this shape matrix around c_: from the
+  /// Same as EllipsoidBody::alone, for the ellipsoid around c_ with the shape matrix A. Uses this
   /// matrix instead of a factor.
   Vec3<W> met(const Form& A) const {
     using std::max;
@@ -120,8 +121,8 @@ class EllipsoidSumModel {
                     select(meets, W(a_y * root - y * volume), W(-y)), det * root});
   }
 
-  /// Returns the hit in the ray's frame. If uncertain, m is a direction across the ray in which
-  /// the sum hardly reaches the ray, or else the best direction found.
+  /// Returns the hit in the ray's frame. If the hit is not certain, m is a direction across the ray
+  /// in which the sum hardly reaches the ray, or else the best direction found.
   ModelHit<W> find() const {
     using std::sqrt;
     const W rounding = W(tolerance::epsilon<T> * R_);
@@ -143,7 +144,7 @@ class EllipsoidSumModel {
     Mask<W> best_is_ahead(false), outer(false);
     Mask<W> open = s_.squaredNorm() <= W(T(1.01) * R_ * R_);
     for (int i = 0; i < max_evaluations; ++i) {
-      // Heights h_i over the centres, support points g_i.
+      // Support points g_i and heights h_i, relative to the centres.
       std::array<Vec3<W>, EllipsoidSum<T>::most> g;
       std::array<W, EllipsoidSum<T>::most> over;
       Vec3<W> support_point = Vec3<W>::Zero();
@@ -159,8 +160,8 @@ class EllipsoidSumModel {
       const W h = c_.dot(m) + height;
       const Mask<W> ahead = m.z() > W(tolerance::model_rounding<T>);
 
-      // The value to minimise: of a direction ahead, the height at which the plane cuts the ray; of
-      // one across the ray, the ratio of the sum's reach to the ray's distance.
+      // The value to minimise. For a direction ahead: the height at which its plane cuts the ray.
+      // For a direction across the ray: the sum's reach divided by the ray's distance.
       const W cut = h / select(ahead, m.z(), W(1));
       const W beyond = -c_.dot(m);
       const W ratio = height / select(beyond > W(0), beyond, W(T(1) / T(1024)));
@@ -171,8 +172,8 @@ class EllipsoidSumModel {
       least = select(worse, least, value);
       best_is_ahead = (worse & best_is_ahead) | ((!worse) & ahead);
 
-      // The sum's osculating ellipsoid; or one that contains the sum and touches it there: a step
-      // on that one does not lead to a higher plane (Cauchy-Schwarz inequality).
+      // The ellipsoid that osculates the sum, or one that contains the sum and touches it. A step
+      // with the latter never leads to a higher plane (Cauchy-Schwarz inequality).
       Form osculating = zero();
       for (std::size_t k = 0; k < sum_.used; ++k) {
         const W share = height * over[k];
@@ -187,8 +188,8 @@ class EllipsoidSumModel {
       const Mask<W> on_to = next.z() > W(tolerance::model_rounding<T>);
       const Mask<W> settled =
           ahead & on_to & (!outer) & (offset * step <= rounding) & (offset <= W(model_reach * R_));
-      // Separates, or has the least reach of the directions across the ray. If the ray is tangent
-      // up to rounding, the direction may alternate.
+      // The direction separates, or has the least reach of all directions across the ray. If the
+      // ray is tangent up to rounding, directions may alternate.
       const W enough = i < max_across ? W(T(-2) * gap) : W(gap);
       const Mask<W> across =
           (!ahead) &
@@ -208,8 +209,8 @@ class EllipsoidSumModel {
     return hit;
   }
 
-  /// Sums of two ordinary ellipsoids need three or four evaluations, sums of needles dozens:
-  /// SmoothModel continues these.
+  /// Sums of two ordinary ellipsoids need three or four evaluations, sums of needles dozens.
+  /// SmoothModel continues the latter.
   static constexpr int max_evaluations = 12;
   /// Directions across the ray converge in about four evaluations.
   static constexpr int max_across = 6;

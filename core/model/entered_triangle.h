@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a hull with stored triangles: a walk from one to the next, over the
-// hull or over the hull grown by a radius.
+// Finds where a line enters a hull with stored triangles, or such a hull grown by a radius: walks
+// from triangle to triangle.
 #pragma once
 
 #include "core/geometry/facet_mesh.h"
@@ -15,17 +15,17 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
   static constexpr bool some = true;
   static bool known(const Core& hull) { return hull.points.facets() != nullptr; }
 
-  /// Seen along the ray, the facets that face it form a triangulation. The walk starts at a facet
-  /// that is likely to be near, and leaves each triangle through the edge that the line is furthest
-  /// beyond (Devillers, Pion and Teillaud, "Walking in a Triangulation", 2002). If that leads to a
-  /// facet that faces away, the edge is on the outline and the line misses.
+  /// Projected along the ray, the facets that face it form a triangulation. The walk starts at a
+  /// facet that is likely to be near, and leaves each triangle through the edge that the line is
+  /// furthest beyond (Devillers, Pion and Teillaud, "Walking in a Triangulation", 2002). If the
+  /// next facet faces away, the edge is on the outline and the line misses.
   static EnteredFacet<W> entered(const Core& hull, const Vec3<T>& half_extents, const Vec3<W>& s,
                                  const Vec3<W>& from, const RayFrame<W>& frame) {
     using std::max;
     using std::min;
     const FacetMesh& mesh = *hull.points.facets();
     const Vec3<W> guess = normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z));
-    // Corners are rounded relative to the ray; hulls may be far from the origin of their frame.
+    // The rounding of corners relative to the ray; hulls may be far from the origin of their frame.
     const T R = half_extents.norm();
     const W rounding =
         W(T(2) * tolerance::epsilon<T>) * (W(R) + Vec3<W>(from - s).cwiseAbs().sum());
@@ -66,7 +66,7 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
     const auto plane = mesh.template numbers<Row::normals, Row::size - Row::normals>(at);
     facet.in_shape = Vec3<W>(plane[0], plane[1], plane[2]);
     facet.normal = frame.into(facet.in_shape);
-    // The normal of a facet seen edge-on must be exactly that of its corners.
+    // For a facet seen edge-on, only a normal computed from the corners themselves is exact enough.
     const Mask<W> steep = facet.enters & !(facet.normal.z() > W(least_facing));
     facet.supported = facet.enters & (plane[Row::supported - Row::normals] > W(0)) & !steep;
     const auto replace_normal = [&](const Mask<W>& lanes, const Vec3<W>& normal) {
@@ -78,7 +78,7 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
     const Mask<W> has_normal = facet.normal.squaredNorm() > W(0);
     facet.known &= has_normal;
     facet.enters &= has_normal;
-    // Limited to the heights of the corners, however steep the plane is.
+    // Limits the height to those of the corners, since the plane may be nearly parallel to the ray.
     const auto& [a, b, c] = corners;
     const W z = select(facet.normal.z() > W(0), facet.normal.z(), W(1));
     facet.height = min(max(W(a.dot(facet.normal) / z), min(a.z(), min(b.z(), c.z()))),
@@ -89,15 +89,15 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
     return facet;
   }
 
-  /// Finds the point where the line meets a facet's plane, moved out by the radius. The foot of
-  /// that point on the facet gives the direction to the next facet. If two facets lead to each
-  /// other, the edge between them is the result.
+  /// Finds the point where the line meets a facet's plane, moved out by the radius. The direction
+  /// from the facet to this point's projection on it gives the next facet. If two facets lead to
+  /// each other, the result is the edge between them.
   static EnteredFacet<W> around(const Core& hull, T radius, const Vec3<T>& half_extents,
                                 const Vec3<W>& s, const Vec3<W>& from, const RayFrame<W>& frame) {
     const FacetMesh& mesh = *hull.points.facets();
     const Vec3<W> guess = normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z));
-    // Facets are stored as supported if they are thick relative to the hull; they must also be
-    // thick relative to the radius; otherwise rounding decides which of them contains the foot.
+    // Facets are stored as supported if they are thick relative to the hull. Here they must also be
+    // thick relative to the radius, since otherwise rounding decides which facet is next.
     const T R = half_extents.maxCoeff();
     const bool tells = T(4) * (R - radius) >= R;
 
@@ -105,7 +105,7 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
     facet.normal = Vec3<W>(W(0), W(0), W(1));
     W at = start(mesh, guess, frame, 0), last = W(-1);
     Mask<W> open = Mask<W>(true), stepped = Mask<W>(false);
-    // The edge that the last step crossed, the corner that it left behind, and its foot.
+    // The edge that the last step crossed, the corner opposite to it, and the projected point.
     Vec3<W> begin = Vec3<W>::Zero(), end = begin, behind = begin, foot = begin;
     const auto answer = [&](const Mask<W>& lanes, const Vec3<W>& a, const Vec3<W>& b,
                             const Vec3<W>& c, const Vec3<W>& d, const Mask<W>& has_d) {
@@ -118,7 +118,7 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
       facet.there[1] |= lanes;
       facet.there[2] |= lanes & has_d;
     };
-    // The nearer corner of the edge first.
+    // Passes the nearer corner of the edge first.
     const auto answer_edge = [&](const Mask<W>& lanes, const Vec3<W>& a, const Vec3<W>& b,
                                  const Vec3<W>& c, const Vec3<W>& d, const Mask<W>& has_d) {
       const Mask<W> swap = (b - foot).squaredNorm() < (a - foot).squaredNorm();
@@ -182,9 +182,9 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
  private:
   using Row = typename FacetMesh::Facet;
 
-  /// If the line passes an edge within rounding, it also enters the facet beyond, whose distance is
-  /// rounded less if it faces the ray more: due to rounding, the line may cross the plane of a
-  /// facet seen nearly edge-on long before the edge.
+  /// If the line passes an edge within rounding, the line also enters the facet beyond the edge.
+  /// The crossing with that facet has less rounding if the facet faces the ray more. A facet seen
+  /// nearly edge-on may, due to rounding, be crossed long before the edge.
   static void settle(const FacetMesh& mesh, const Vec3<W>& from, const RayFrame<W>& frame,
                      const Mask<W>& at_edge, const W& rounding, W& at,
                      std::array<Vec3<W>, 3>& corners) {
@@ -199,8 +199,8 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
         const W its = frame.z.dot(normal_of(row));
         const Vec3<W>&a = corners[k], &b = corners[(k + 1) % 3];
         const W length = abs(b.x() - a.x()) + abs(b.y() - a.y());
-        // Requires a line next to the edge, not beyond its ends: on slivers, all edges are in line
-        // with the ray.
+        // Requires a line next to the edge, not beyond its ends: on slivers, all edges are nearly
+        // on one line.
         const W along = a.x() * b.x() + a.y() * b.y();
         const Mask<W> near = (cross_2d(a, b) <= rounding * length) & (along <= rounding * length);
         const Mask<W> better = at_edge & near & (its > facing);
@@ -239,9 +239,9 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
                   select(second, row[Row::neighbours + 1], row[Row::neighbours]));
   }
 
-  /// Tilts of the guess towards the ray at the start of a walk. The first is small, so that most
-  /// guesses perpendicular to the ray face it. If the facet found faces away, larger tilts follow:
-  /// their facets are less near, but face the ray more surely.
+  /// The guessed direction at the start of a walk is tilted towards the ray. The first tilt is
+  /// small: enough for most guesses perpendicular to the ray. If the facet found faces away, larger
+  /// tilts follow. Their facets are less near, but more likely to face the ray.
   static constexpr std::array<T, 3> tilts = {T(1) / T(32), T(1) / T(2), T(4)};
   static constexpr int restarts = static_cast<int>(tilts.size()) - 1;
   static W start(const FacetMesh& mesh, const Vec3<W>& guess, const RayFrame<W>& frame,
@@ -249,11 +249,11 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
     return mesh.facing(Vec3<W>(guess + frame.z * W(tilts[static_cast<std::size_t>(attempt)])));
   }
 
-  /// Sine below which a facet counts as seen edge-on or, if rounded, as facing away: the line
-  /// crosses its moved plane a thousand radii from it.
+  /// Sine below which a facet counts as seen edge-on. For rounded hulls, such a facet counts as
+  /// facing away: the line crosses the facet's moved plane a thousand radii from it.
   static constexpr T least_facing = T(1) / T(1024);
-  /// Walks of regular triangulations end by themselves, except for rounding, and are short from a
-  /// near start. Casts whose walk is longer continue without known facets.
+  /// Limit of steps. Without rounding, walks in regular triangulations always end, and are short
+  /// from a near start. If a walk is longer, the cast continues without known facets.
   static constexpr int max_steps = 64;
 };
 

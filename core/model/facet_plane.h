@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A facet of a polytope that a line enters, and its supporting plane: a guess, which the solvers
-// verify by the support mapping, or by results stored with the polytope.
+// A facet of a polytope that a line enters, and its supporting plane. Both are guesses, which
+// solvers verify by the support mapping or by results stored with the polytope.
 #pragma once
 
 #include "core/model/line_cast.h"
@@ -13,24 +13,24 @@ namespace minkray {
 template <class W>
 struct EnteredFacet {
   Mask<W> known = Mask<W>(false);  ///< a result was found
-  /// The line passes through the facet or, for `around`, through the facet moved outwards, if it is
-  /// supported.
+  /// The line passes through the facet (for `around`, through the facet moved outwards), provided
+  /// that the facet is supported.
   Mask<W> enters = Mask<W>(false);
   /// Proven: no point of the polytope is further along the facet's normal than `corner`.
   Mask<W> supported = Mask<W>(false);
   /// Outward unit normal of the facet. For a line that misses, a direction perpendicular to the
-  /// line in which the line is beyond the polytope.
+  /// line, in which the line lies beyond the polytope.
   Vec3<W> normal = Vec3<W>::Zero();
   Vec3<W> in_shape = Vec3<W>::Zero();  ///< the normal in the shape's frame
-  W height = W(0);                     ///< the line enters at lambda = -height, if it does
+  W height = W(0);                     ///< if the line enters: at lambda = -height
   Vec3<W> corner = Vec3<W>::Zero();    ///< a corner of the facet
   /// Adjacent corners.
   std::array<Vec3<W>, 3> neighbours = {Vec3<W>::Zero(), Vec3<W>::Zero(), Vec3<W>::Zero()};
   std::array<Mask<W>, 3> there = {Mask<W>(false), Mask<W>(false),
-                                  Mask<W>(false)};  ///< mask of the valid ones
+                                  Mask<W>(false)};  ///< mask of the valid neighbours
 };
 
-/// Stores the supporting plane of the facet that a line enters, to recognise it.
+/// Recognises the normal of the facet that a line enters, and stores the facet's supporting plane.
 template <class W>
 class FacetPlane {
  public:
@@ -60,11 +60,11 @@ class FacetPlane {
   Mask<W> supported_ = Mask<W>(false);
 };
 
-/// Facets of a core; this template is for polytopes without stored ones. Specialisations have
-/// `known`, true if there are facets; `entered`, the facet that the line enters; and `around`, a
-/// facet near the point where the line meets the polytope rounded by a radius (except for boxes,
-/// which have closed forms). The line passes through `from`, at s relative to the bounding ball's
-/// centre.
+/// Finds facets of a core. This template is for polytopes without stored facets. Specialisations
+/// have `some`, true if facets are stored; `entered`, which returns the facet that the line enters;
+/// and, except for boxes, `around`, which returns a facet near the point where the line meets the
+/// polytope grown by a radius. The line passes through `from`, which is at s relative to the
+/// bounding ball's centre.
 template <class W, class Core>
 struct Facets {
   static constexpr bool some = false;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Flat summands of sums of ellipsoids: where the direction crosses a disk's axis, the support point
-// jumps from one side of the disk to the other, and Newton's method with it. If a step crosses the
-// axis, the axis itself is the next direction.
+// Handles flat summands (disks) in sums of ellipsoids. Where the direction crosses a disk's axis,
+// the support point jumps to the opposite side of the disk, and so does Newton's method. If a step
+// crosses the axis, the next direction is the axis itself.
 #pragma once
 
 #include "core/model/sum_features.h"
 
 namespace minkray {
 
-/// The axis of a flat summand: a direction in which its support point jumps to the other side.
+/// The axis of a flat summand: a direction in which the support point jumps.
 template <class W>
 struct Kink {
   Mat3<W> F = Mat3<W>::Zero();
@@ -18,7 +18,7 @@ struct Kink {
   Mask<W> tried = Mask<W>(false);
 };
 
-/// Lanes in which all features with a weight have exactly the kink's flat summand.
+/// Returns the lanes in which all features with a weight have exactly the kink's flat summand.
 template <class W>
 Mask<W> all_have(const SumFeatures<W>& features, const Kink<W>& kink,
                  const std::array<W, 4>& weights) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The bodies that a hull cast supports: a ball and an ellipsoid. Each has its support function and
-// the normals where the ray meets the body alone, or swept along an edge. docs/forms.md derives
-// them. The frame is hull_cast.h's.
+// The bodies that a hull cast supports: a ball and an ellipsoid. Each has its support function, and
+// the normals where the ray meets the body alone or swept along an edge. docs/forms.md derives
+// them. The frame is that of hull_cast.h.
 #pragma once
 
 #include "core/query/ray_frame.h"
@@ -9,7 +9,7 @@
 
 namespace minkray {
 
-/// Translates of one body: balls.
+/// A ball, the body of rounded polytopes.
 template <class W>
 struct RoundBody {
   W radius;
@@ -20,8 +20,8 @@ struct RoundBody {
   }
   Vec3<W> support_point(const Vec3<W>& m) const { return m * radius; }
 
-  /// Unit normal where the ray meets the body around c; if the ray passes by, the body's normal
-  /// towards the ray and perpendicular to it.
+  /// Unit normal where the ray meets the body around c. If the ray passes the body: the body's
+  /// normal towards the ray, perpendicular to it.
   Vec3<W> alone(const Vec3<W>& c) const {
     using std::max;
     using std::sqrt;
@@ -30,8 +30,8 @@ struct RoundBody {
   }
 
   /// Same as `alone`, for the cylinder that the body sweeps along e. `touch` is the point, relative
-  /// to the body's centre, where the ray meets the cylinder or, if it passes by, where it would
-  /// touch a larger one.
+  /// to the body's centre, where the ray meets the cylinder. If the ray passes the cylinder, it is
+  /// the point where the ray would touch a larger one.
   Vec3<W> swept(const Vec3<W>& c, const Vec3<W>& e, const W& length, Vec3<W>& touch) const {
     using std::abs;
     using std::max;
@@ -58,7 +58,7 @@ struct EllipsoidBody {
 
   W support_function(const Vec3<W>& m) const { return (F.transpose() * m).norm(); }
   /// Uses a unit vector, so that the result is a point of the ellipsoid even if F^T m consists of
-  /// rounding only. For a disk along its axis: the centre.
+  /// rounding only. For a disk and its axis, returns the centre.
   Vec3<W> support_point(const Vec3<W>& m) const {
     const Vec3<W> u = F.transpose() * m;
     const Vec3<W> support_point = F * unit<W>(u);
@@ -74,7 +74,7 @@ struct EllipsoidBody {
   }
 
   /// For two disks in a plane perpendicular to m: finds a point b + share e between their centres
-  /// such that the ray meets the disk around it. `meets` is true if there is one.
+  /// such that the ray meets the disk around this point. `meets` is true if there is such a point.
   void between_disks(const Vec3<W>& m, const Vec3<W>& b, const Vec3<W>& e, W& share,
                      Mask<W>& meets) const {
     const Mask<W> along = is_along_axis(F.transpose() * m);
@@ -96,8 +96,9 @@ struct EllipsoidBody {
     using std::abs;
     using std::max;
     using std::sqrt;
-    // With N_kl = f_k x f_l, the determinant is the sum of N_kl.z^2; adj c and the other minors of
-    // A = F F^T are sums of products of these, which keep digits that A itself loses for needles.
+    // With N_kl = f_k x f_l, the determinant is the sum of N_kl.z^2. The other minors of A = F F^T,
+    // such as adj c, are also sums of products of N_kl. These keep digits that A itself loses for
+    // needles.
     W det(0), off(0);
     Vec3<W> across = Vec3<W>::Zero(), adj = Vec3<W>::Zero();
     for (int k = 0; k < 3; ++k) {

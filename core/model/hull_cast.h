@@ -24,9 +24,9 @@ struct Translates {
 template <class W>
 struct HullCastHit {
   Vec3<W> m = Vec3<W>::Zero();     ///< of unit length
-  Mask<W> found = Mask<W>(false);  ///< hit or separation is certain; otherwise the best known
+  Mask<W> found = Mask<W>(false);  ///< hit or separation is certain; otherwise m is the best known
   std::array<W, 3> weights = {
-      W(0), W(0), W(0)};  ///< of the others' support points; with the newest's, the sum is 1
+      W(0), W(0), W(0)};  ///< of the other bodies; with that of the newest, the sum is 1
   W height = W(std::numeric_limits<Lane<W>>::infinity());  ///< height of the hull's plane
 };
 
@@ -43,9 +43,9 @@ class HullCast {
         rounding_(rounding),
         beaten_by_(rounding * W(T(1) / T(4))) {}
 
-  /// The newest body is likely to be among the hit's carriers. If another body reaches beyond a
-  /// candidate's plane, it is added to the candidate. If this does not lead to the hit, all
-  /// candidates are tried, those with the newest body first.
+  /// The newest body is likely to be among the bodies that carry the hit. If another body reaches
+  /// beyond a candidate's plane, it is added to the candidate. If this does not lead to the hit,
+  /// all candidates are tried, those with the newest body first.
   HullCastHit<W> solve() {
     const Furthest newest = {newest_, W(0), nowhere(), Mask<W>(true)};
     const Furthest second = alone(newest);
@@ -58,8 +58,8 @@ class HullCast {
     return hit_;
   }
 
-  /// Same as solve(), if the hit is known in some lanes and is likely to be between the newest body
-  /// and the first of the others in the rest.
+  /// Same as solve(), if the hit is known in some lanes. In the others, it is likely to be between
+  /// the newest body and the first of the other bodies.
   HullCastHit<W> solve_from(const HullCastHit<W>& known) {
     hit_ = known;
     if (!all(hit_.found)) edge({newest_, W(0), nowhere(), Mask<W>(true)}, other(0));
@@ -69,7 +69,7 @@ class HullCast {
  private:
   using Places = std::array<Mask<W>, 3>;
 
-  /// The body that reaches furthest in some direction, if there is one.
+  /// The body that reaches furthest in some direction, if `some` is set.
   struct Furthest {
     Vec3<W> c = Vec3<W>::Zero();
     W h = W(-std::numeric_limits<T>::infinity());
@@ -84,8 +84,8 @@ class HullCast {
     return {others_.c[k], W(0), at, others_.valid[k]};
   }
 
-  /// Tries all candidates again with a wider margin: one that another body exceeds by hardly more
-  /// than rounding may be the hit after all.
+  /// Tries all candidates again with a wider margin: a candidate that another body exceeds by
+  /// little more than rounding may be the hit after all.
   void try_all(const Furthest& newest) {
     beaten_by_ = rounding_;
     for (std::size_t k = 0; k < 3; ++k) edge(newest, other(k));
@@ -113,8 +113,8 @@ class HullCast {
     return best;
   }
 
-  /// Takes the candidate of direction m in lanes where it is better than the hit so far. The
-  /// candidate is the hit where its bodies meet the ray (`meets`) and no other body reaches further
+  /// Takes the candidate with direction m in lanes where it is better than the hit so far. A
+  /// candidate is the hit if its bodies meet the ray (`meets`) and no other body reaches further
   /// than its carrier. Returns the body that reaches furthest, except the newest.
   Furthest consider(const Vec3<W>& m, const Vec3<W>& carrier, const Mask<W>& meets,
                     const std::array<W, 3>& weights, const Mask<W>& candidate) {
@@ -190,8 +190,8 @@ class HullCast {
   const Translates<W>& others_;
   W rounding_;
   /// Margin by which another body may reach beyond a candidate's carrier. The candidate's plane is
-  /// moved out to that body, so the hit is too early by as much. Initially the rounding of two
-  /// reaches, a quarter of rounding_.
+  /// moved out to that body, so the hit is too early by this distance. Initially the rounding of
+  /// two reaches, a quarter of rounding_.
   W beaten_by_;
   HullCastHit<W> hit_;
 };

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The loop of all solvers on jets (docs/forms.md). A supporting plane in direction n gives a
-// rigorous lower bound of the hit. The hit on a model, the hull of the features found so far, is an
-// upper bound (approximately, if features are not exact); its normal is the next n. The search ends
-// when both meet. W is a number or a packet, one ray per lane; finished lanes take part without
-// effect.
+// rigorous lower bound of the hit. The hit on a model (the hull of the features found so far) is an
+// upper bound, approximately if features are not exact; its normal is the next n. The search ends
+// when both meet. W is a number or a packet, one ray per lane; finished lanes have no effect.
 #pragma once
 
 #include "core/query/observer.h"
@@ -15,9 +14,9 @@ namespace minkray {
 /// Hit of a line with a model.
 template <class W>
 struct ModelHit {
-  Vec3<W> m = Vec3<W>::Zero();       ///< unit normal; zero or not finite: none was found
+  Vec3<W> m = Vec3<W>::Zero();       ///< unit normal; zero or not finite if none was found
   W height = W(0);                   ///< the line enters the model at lambda = -height
-  Mask<W> certain = Mask<W>(false);  ///< `height` is that of the model, up to rounding
+  Mask<W> certain = Mask<W>(false);  ///< `height` is that of the model's hit, up to rounding
   /// The carriers of the hit are parts of the shape: the hit is an upper bound of the shape's hit.
   Mask<W> inner = Mask<W>(true);
   Mask<W> repeated = Mask<W>(false);  ///< the newest feature was found before
@@ -28,7 +27,8 @@ template <class W>
 struct LineHit {
   Mask<W> hit = Mask<W>(false);
   Mask<W> miss = Mask<W>(false);  ///< neither hit nor miss: exhausted
-  /// Exhausted because the line is tangent to the shape within rounding: `normal` is the plane's.
+  /// Exhausted since the line is tangent to the shape within rounding; `normal` is that of the
+  /// tangent plane.
   Mask<W> tangent = Mask<W>(false);
   W lambda = W(-std::numeric_limits<Lane<W>>::infinity());       ///< rigorous lower bound
   W lambda_above = W(std::numeric_limits<Lane<W>>::infinity());  ///< the model's hit
@@ -50,14 +50,14 @@ LineHit<W> pick(const Mask<W>& condition, const LineHit<W>& a, const LineHit<W>&
 }
 
 /// A model may compute in its own frame. All vectors here are in that frame, except the result's
-/// normal, which is in the shape's. Members of a model:
-/// - `to_frame(n)`, `to_shape(n)`: convert a direction from the shape's frame to its own, and back;
+/// normal, which is in the shape's frame. Members of a model:
+/// - `to_frame(n)`, `to_shape(n)`: convert a direction from the shape's frame to the model's, and
+/// back;
 /// - `against_ray(n)`: the component of n against the ray's direction;
 /// - `begin(half_extents)`: the ModelHit before the first support call: a first direction, and a
-///   hit if the model already has features of the shape; half_extents are the shape's;
-/// - `support(n, wanted)`: the shape's feature in the unit direction n, relative to the ray's
-///   closest approach s, with support_function(n) and support_point(n); any feature in lanes that
-///   are not wanted;
+/// hit if the model already has features. half_extents are those of the shape;
+/// - `support(n, wanted)`: the shape's feature in the unit direction n, relative to s, with
+/// support_function(n) and support_point(n). Lanes that are not wanted may get any feature;
 /// - `step(feature, n, iteration)`: adds the feature to the model and returns the model's hit.
 ///
 /// The search ends beyond lambda_end. Rounding is relative to R. Only `open` lanes count.
@@ -77,13 +77,14 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
   Vec3<W> n = model_hit.m;
   W best_slope(0);  // of result.normal's plane
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
-    // The supporting plane in direction n clips the line or separates it. If the plane leans away
-    // from the ray, it separates all of the line within the bounding ball.
+    // The supporting plane in direction n clips the line or separates it from the shape. If the
+    // normal does not point against the ray, the plane separates the part of the line within the
+    // bounding ball.
     const auto feature = model.support(n, open);
     result.supports += select(open, W(1), W(0));
     const W h = feature.support_function(n), z = model.against_ray(n);
     const Mask<W> ahead = z > W(0), steep = z > least_slope, beyond = h < -gap;
-    // If the plane is not steep, only a distance clearly beyond rounding counts.
+    // If the plane is nearly parallel to the line, only a distance clearly beyond rounding counts.
     const W clear = select(steep, h, W(h + gap));
     const W lambda =
         select(steep | (ahead & beyond), W(-clear / select(ahead, z, W(1))), W(-infinity));
@@ -99,8 +100,7 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
     open &= !misses;
     if (!any(open)) break;
 
-    // Ends the search in lanes where the hit on the model is at most rounding beyond the best
-    // plane.
+    // Ends the search in lanes where the model's hit is beyond the best plane by at most rounding.
     const auto meets = [&](const W& slope, const W& within) {
       const W along = select(model_hit.certain, W(-model_hit.height - result.lambda), W(0));
       const W missing = along * min(slope, max(best_slope, W(0)));
@@ -108,10 +108,10 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
                           (along <= gap_along);
       const Mask<W> contradicts = missing < W(-16) * gap;
       result.hit |= met & !contradicts;
-      // If the best plane is beyond the model's hit by rounding, the model's hit is taken: it lies
-      // between points of the shape. But if the model's own plane is so nearly along the line that
-      // the model is off by more than the best plane's rounding, the best plane is taken, and the
-      // model bounds the hit from below.
+      // If the best plane is beyond the model's hit, by rounding, the result is the model's hit,
+      // which lies between points of the shape. But the model's own plane may be so nearly parallel
+      // to the line that the model's error exceeds the rounding of the best plane. The result is
+      // then the best plane, and the model gives the lower bound.
       const Mask<W> inner = met & model_hit.inner & !contradicts;
       const Mask<W> closer = inner & (along * best_slope >= W(-4) * gap);
       const W above = select(closer, W(-model_hit.height), result.lambda);
@@ -122,10 +122,10 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
     meets(z, gap);
     if (!any(open)) break;
 
-    // The hit on the model with the new feature.
+    // Computes the hit on the model with the new feature.
     model_hit = model.step(feature, n, iteration);
     meets(model.against_ray(model_hit.m), select(model_hit.repeated, W(W(4) * gap), gap));
-    // A tangent line: planes along it do not determine where it touches the shape.
+    // If the line is tangent, planes along it do not determine where it touches the shape.
     const Mask<W> touches = (!steep) & model_hit.repeated & (abs(h) <= gap);
     const Mask<W> stuck = model_hit.repeated & ((model_hit.m - n).squaredNorm() == W(0));
     const Mask<W> tangent = open & touches;
@@ -141,8 +141,8 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
 }
 
 /// Returns the unit normal where the line s + lambda r first meets the ellipsoid around the origin
-/// with these radii, all positive; if the line passes by, the ellipsoid's normal towards it,
-/// perpendicular to r. `meets` is the mask of lines that meet it.
+/// with these radii, all positive. If the line passes the ellipsoid, returns the ellipsoid's normal
+/// towards the line, perpendicular to r. `meets` is set for lines that meet the ellipsoid.
 template <class W>
 Vec3<W> normal_on_ellipsoid(const Vec3<Lane<W>>& radii, const Vec3<W>& s, const Vec3<W>& r,
                             Mask<W>& meets) {
@@ -162,8 +162,9 @@ Vec3<W> normal_on_ellipsoid(const Vec3<Lane<W>>& radii, const Vec3<W>& s, const 
   return all(some) ? n : select<W>(some, n, Vec3<W>(-r));
 }
 
-/// Returns approximately the same for a shape with these half extents: a first unit direction for
-/// the support mapping. Extents that are negligible next to the largest are increased slightly.
+/// Returns approximately the same for a shape with these half extents: a first direction, of unit
+/// length, for the support mapping. Extents that are negligible compared with the largest are
+/// increased slightly.
 template <class W>
 Vec3<W> normal_on_extents(const Vec3<Lane<W>>& half_extents, const Vec3<W>& s, const Vec3<W>& r) {
   using std::max;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Ray cast with any of the models: finds the line's first hit with the shape, and converts it to
-// the result of a ray, which has a beginning and an end. For one ray, or for a packet of rays.
+// Ray cast with any of the models: finds the first hit of the infinite line with the shape, and
+// converts it to the result of a ray, which has a beginning and an end. For one ray, or for a
+// packet of rays.
 #pragma once
 
 #include "core/model/line_cast.h"
@@ -14,9 +15,10 @@ struct CastLanes {
   Mask<W> hit = Mask<W>(false);
   Mask<W> inside = Mask<W>(false);
   Mask<W> miss = Mask<W>(false);
-  /// Hit, but without an upper bound by points of the shape.
+  /// Hit without an upper bound by points of the shape.
   Mask<W> by_model = Mask<W>(false);
-  /// Inside, but between planes so steep that rounding decides, as for a line within a face.
+  /// Inside, but between planes so nearly parallel to the ray that rounding decides, as for a line
+  /// within a face.
   Mask<W> uncertain = Mask<W>(false);
   W t_base = W(0), t_offset = W(0), offset_lo = W(0), offset_hi = W(0);
   Vec3<W> normal = Vec3<W>::Zero();
@@ -61,17 +63,18 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
     auto model = make_model(from, direction);
     return first_on_line<W>(model, half_extents, until, R, open, max_iterations, watch(sign));
   };
-  // A line that is tangent within rounding is replaced by one that is no further away and enters at
-  // a steeper angle.
+  // A line that is tangent within rounding is replaced by a line slightly deeper in the shape,
+  // which enters at a larger angle.
   const auto not_touching = [&](const LineHit<W>& found, const Vec3<W>& direction, const W& until,
                                 const W& sign) {
     const Vec3<W> pushed = s - found.normal * W(tolerance::tangent_push<T> * R);
     LineHit<W> again = first_along(pushed, direction, until, found.tangent, sign);
     again.supports += found.supports;
-    // If the shape is thinner than the push, the line left it on the other side: no proven miss.
+    // If the shape is thinner than the push, the new line passed the shape on the other side; this
+    // proves no miss.
     again.miss &= !(again.normal.dot(found.normal) < W(0));
-    // The hit is where the original line crosses the plane that was found: later, but not beyond
-    // the end of the shape or the ray.
+    // The hit is where the original line crosses the plane that was found. This is later than the
+    // new line's hit, but not beyond the end of the shape or the ray.
     auto model = make_model(s, direction);
     const Vec3<W> ahead = model.to_frame(direction);  // NOLINT: of some models no reference
     const W last = model.support(ahead, found.tangent).support_function(ahead);
@@ -96,8 +99,9 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   result.supports = entry.supports;
   result.normal = entry.normal;
   result.miss = entry.miss;
-  // If the plane cuts the line beyond the ball's far side, adds the ball's tangent plane there: the
-  // two leave no part of the line, and their sum is a plane along it.
+  // If the plane cuts the line beyond the ball's far side, adds the ball's tangent plane there.
+  // Together the two planes exclude the entire line; the sum of their normals gives a plane along
+  // the line.
   const W z = -entry.normal.dot(r);
   if (any(entry.miss)) {
     const Vec3<W> out = s + r * depth;
@@ -109,16 +113,17 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   }
   const Mask<W> enters = entry.hit & (entry.lambda >= near.lambda_min);
   result.hit = enters;
-  // If planes are so steep that their rounding is large along the ray, the model's hit is the
-  // better result, since it lies between points of the shape; except where the model's plane is
-  // steeper.
+  // If planes are so nearly parallel to the ray that their rounding is large along the ray, the
+  // model's hit is the better result, since it lies between points of the shape. An exception are
+  // models whose own plane is even more nearly parallel.
   Mask<W> bounded = entry.lambda_above < W(std::numeric_limits<T>::infinity());
   const W gap = select(bounded, W(entry.lambda_above - entry.lambda), W(0));
   bounded &= gap * z <= W(T(4) * tolerance::jet_gap<T> * R);
-  // If the two hits are apart, the model had only a plane nearly along the ray: not a proven hit.
+  // If the two hits are far apart, the model had only a plane nearly parallel to the ray, which
+  // proves no hit.
   result.hit &= bounded | !(entry.lambda_above < W(std::numeric_limits<T>::infinity()));
   result.t_offset = near.t_offset(select(bounded, entry.lambda_above, entry.lambda));
-  // Both bounds have the rounding of a plane's offset, which is larger along a slanted ray.
+  // Both bounds include the rounding of a plane's offset, divided by the plane's slope.
   const W rounding =
       (W(tolerance::plane_rounding<T> * R) + near.loss) / max(z, W(tolerance::least_slope<T>));
   // On reversed rays, t decreases.
@@ -127,7 +132,7 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   result.by_model = result.hit & !(entry.lambda_above < W(std::numeric_limits<T>::infinity()));
   result.offset_hi = near.t_offset(W(entry.lambda_above + rounding)) + digits;
 
-  // The line enters before the ray begins: finds where it leaves.
+  // If the line enters before the ray begins, finds where the line leaves.
   const Mask<W> began = entry.hit & !enters;
   if (!any(began)) return result;
   const Vec3<W> back = -r;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Selects the model that suits a shape when the shape is prepared, by its jets in a few
+// Selects the model that suits a shape, when the shape is prepared. Uses the jets in a few
 // directions.
 #pragma once
 

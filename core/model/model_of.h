@@ -44,7 +44,7 @@ auto with_model(const ShapeDefinition& definition, Use&& use) {
       return std::visit(
           [&]<class S>(const S& points) {
             if constexpr (declared_by<S>.facets || declared_by<S>.slabs)
-              return polytope(points);  // the facet that a line enters is known
+              return polytope(points);  // facets are known
             else
               return polytope(shape);
           },

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The model for polytopes: the hull of up to four vertices. A triangle of them that the ray passes
-// through is a portal, whose plane's normal is the next direction. While there is none, vertices
-// become balls that touch their supporting planes from inside, as on a curved shape. The balls
-// shrink, so that this ends. If the polytope's facets are known, the first portal is the one that
-// the ray enters by.
+// The model for polytopes: the hull of up to four vertices. If the ray passes through a triangle of
+// these vertices, the triangle is a "portal"; the normal of its plane is the next direction.
+// Without a portal, vertices are replaced by balls that touch their supporting planes from inside,
+// as on a curved shape; the balls shrink, so that this ends. If the polytope's facets are known,
+// the first portal is the facet that the ray enters.
 #pragma once
 
 #include <array>
@@ -103,9 +103,9 @@ class PolytopeModel {
     Mask<W> carries = Mask<W>(false);  ///< carries the last hit
   };
 
-  /// Finds the highest triangle of the newest and two kept vertices that the ray passes through; m
-  /// is its normal. If the newest vertex is not new, rounding decides: a ray that touches an edge
-  /// passes through it.
+  /// Finds the highest triangle of the newest vertex and two kept vertices that the ray passes
+  /// through; m is its normal. If the newest vertex was found before, only rounding prevents
+  /// progress, so a ray that touches an edge counts as passing through.
   Mask<W> portal(const Vec3<W>& newest, const Mask<W>& repeated, Vec3<W>& m) {
     using std::max;
     using std::min;
@@ -127,7 +127,8 @@ class PolytopeModel {
       candidate &= normal.z() > W(0);
       candidate &= !beaten;
       m = select<W>(candidate, normal, m);
-      // The hit is limited to the heights of the three, however rounded a sliver's normal is.
+      // Limits the hit to the heights of the three vertices, since the normal of a sliver is
+      // inaccurate.
       lowest_ = select(candidate, min(newest.z(), min(a.c.z(), b.c.z())), lowest_);
       highest_ = select(candidate, max(newest.z(), max(a.c.z(), b.c.z())), highest_);
       a.carries |= candidate;
@@ -137,8 +138,8 @@ class PolytopeModel {
     return found;
   }
 
-  /// Returns the normal where the ray meets the newest vertex's ball, or the cylinder between it
-  /// and a ball that reaches beyond it there.
+  /// Returns the normal where the ray meets the ball of the newest vertex. If another ball reaches
+  /// beyond that plane, returns the normal on the cylinder between the two balls.
   Vec3<W> rounded(const Vec3<W>& newest, const Vec3<W>& n) {
     using std::max;
     using std::sqrt;
@@ -195,7 +196,7 @@ class PolytopeModel {
 
   using Known = Facets<W, Core>;
 
-  /// True if support points in the directions of facets are looked up: faster than a support call.
+  /// True if support points in the directions of facets are looked up, which is faster than a call.
   static constexpr bool looks_up = declared_by<Core>.support_where;
 
   const Core& core_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Data shared by all instances of one shape: the innermost shape with its bounding ball and
-// precomputed data for the solvers. Instances refer to it, so that a hull is stored once for any
-// number of instances.
+// Data shared by all instances of one shape: the innermost shape with its bounding ball, and
+// precomputed data for the solvers. A hull is thus stored only once for any number of instances.
 #pragma once
 
 #include <memory>
@@ -28,20 +27,21 @@ class ShapeDefinition {
   /// Half extents of the inner shape's axis-aligned bounds, around the ball's centre.
   const Vec3<double>& inner_half_extents() const { return half_extents_; }
   ModelKind model() const { return model_; }
-  /// The inner shape, if model() is a sum of ellipsoids.
+  /// Represents the inner shape exactly, if model() is ellipsoid_sum.
   const EllipsoidSum<double>& ellipsoid_sum() const { return ellipsoid_sum_; }
   /// True if casts at the shape are proven one by one, in double, before they are returned.
   bool is_extreme() const { return is_extreme_; }
   /// The inner shape's closed form, if it declares one. Extreme shapes have none.
   const exact::Form& form() const { return form_; }
-  /// Hits are checked again if the component of their normal against the ray is less than this;
-  /// zero if the surface is known to have neither corners nor flat faces.
+  /// Hits are checked again if the component of their normal against the ray is less than this.
+  /// Zero if the surface has neither corners nor flat faces.
   double uncertain_slope() const { return uncertain_slope_; }
-  /// True if the ball's centre is the origin of the shape's own frame: its place under a pose is
-  /// then the pose's translation.
+  /// True if the ball's centre is the origin of the shape's own frame. Its position under a pose is
+  /// then the translation of the pose.
   bool is_centred() const { return middle_.is_zero(); }
-  /// Excess of the support points' rounding over that of their distance from the ball's centre,
-  /// including the rounding of maps that may have moved them all: a length in the inner frame.
+  /// Excess of the rounding of support points over the rounding of their distance from the ball's
+  /// centre, a length in the inner frame. Includes the rounding of maps that may have moved all
+  /// points.
   double support_loss() const { return support_loss_; }
   bool has_large_loss() const {
     return support_loss_ > tolerance::small_loss<double> * ball_.radius;
@@ -52,14 +52,14 @@ class ShapeDefinition {
     return !is_extreme_ && !has_large_loss() && model_ != ModelKind::osculating_sums;
   }
 
-  /// Bounds of the whole shape, with its transforms, under a pose.
+  /// Bounds of the shape with all its transforms, under a pose.
   Bounds<double> bounds_of(const Affine<double>& pose) const;
 
-  /// Place of an instance. Each number of `to_inner` is rounded about once.
+  /// Placement of an instance. Each number of `to_inner` is rounded about once.
   struct Placement {
     TwoFoldVec3<double> centre;  ///< centre of the inner ball, in the frame of the pose
     Mat3<double> to_inner;       ///< map of directions
-    bool is_rigid_identity;      ///< to_inner is the identity, or its rotation of a ball is ignored
+    bool is_rigid_identity;      ///< to_inner is the identity, or an ignored rotation of a ball
     /// The pose keeps lengths and there is no outer map: to_inner is the transposed linear part of
     /// the pose, and the centre is the inner ball's centre under the pose.
     bool is_plain = false;
@@ -67,7 +67,7 @@ class ShapeDefinition {
         0.0;  ///< bound on the centre's displacement by rounding of the pose, in the inner frame
   };
 
-  /// The ball's centre under a plain pose; its rounded part is what lanes compute.
+  /// The ball's centre under a plain pose. SIMD lanes compute its rounded part in the same way.
   static TwoFoldVec3<double> plain_centre(const Affine<double>& pose,
                                           const Vec3<double>& ball_centre);
   static Vec3<double> rounded_plain_centre(const Affine<double>& pose,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The model for smooth shapes, which jets only osculate: the newest jet's ellipsoid, and translates
-// of it for other patches seen in nearly the same direction, which touch their planes at their
-// support points. Converges like Newton's method. A step to a lower plane is halved, which helps
-// since the planes' cuts are a concave function of the direction. Support points prove the hit: see
-// `settled`.
+// The model for smooth shapes, which jets only osculate: the newest jet's ellipsoid, and its
+// translates for other patches that were found in nearly the same direction. Translates touch their
+// supporting planes at their support points. Converges like Newton's method. A step to a lower
+// plane is halved; this helps, since the height where the plane cuts the ray is a concave function
+// of the direction. Support points prove the hit (`settled`).
 #pragma once
 
 #include "core/model/hull_cast.h"
@@ -21,7 +21,7 @@ class SmoothModel {
     Vec3<W> s;  ///< the support point, relative to the ray's s
     Mat3<W> F;
     Vec3<W> patch;  ///< the jet's centre, which distinguishes the patches of the surface
-    W height;       ///< of the supporting plane over the origin
+    W height;       ///< height of the supporting plane over the origin
     W support_function(const Vec3<W>&) const { return height; }
     const Vec3<W>& support_point(const Vec3<W>&) const { return s; }
   };
@@ -56,7 +56,7 @@ class SmoothModel {
   }
 
   ModelHit<W> step(const Feature& feature, const Vec3<W>& n, int iteration) {
-    // A vertex has no curvature: a small ball replaces it.
+    // A vertex has no curvature, so a small ball replaces it.
     const Mask<W> repeated = repeats(feature);
     shrink_ = select(repeated, W(shrink_ * W(T(0.1))), shrink_);
     if (iteration >= 3) shrink_ *= W(T(0.5));
@@ -90,7 +90,7 @@ class SmoothModel {
   }
 
  private:
-  /// A direction (x, y, 1), the direction that the model proposes from it, and the offset of its
+  /// A direction (x, y, 1), the direction that the model proposes next, and the offset of the
   /// support point from the ray.
   struct Point {
     W x = W(0), y = W(0), to_x = W(0), to_y = W(0), offset_x = W(0), offset_y = W(0);
@@ -116,9 +116,9 @@ class SmoothModel {
     return repeated;
   }
 
-  /// True if the hit is proven: the carriers' support points, combined with the hit's weights, are
-  /// a point p of the shape, hardly below the newest supporting plane and hardly off the ray. The
-  /// remaining gain of the iteration is half the product of its step and p's distance from the ray.
+  /// True if the hit is proven. The carriers' support points, weighted as in the hit, give a point
+  /// p of the shape. p must be nearly on the newest supporting plane and nearly on the ray. Further
+  /// iterations gain at most half the product of the step and p's distance from the ray.
   Mask<W> settled(const Feature& feature, const Vec3<W>& n, const HullCastHit<W>& on_hull) const {
     using std::sqrt;
     Vec3<W> p = feature.s;
@@ -129,10 +129,11 @@ class SmoothModel {
            (offset <= W(model_reach * R_));
   }
 
-  /// Shortens a step that leads to a lower plane or clearly overshoots: to the direction between
-  /// the two in which the support point's offset from the ray has no component along the step. That
-  /// direction is interpolated (Hermite) as a function of the offset, from the values and Newton
-  /// steps of both ends: where curvature vanishes, this function is smooth, but not its inverse.
+  /// Shortens a step that leads to a lower plane or clearly overshoots. The new direction is
+  /// between the two ends of the step: where the support point's offset from the ray has no
+  /// component along the step. That direction is interpolated (Hermite) as a function of the
+  /// offset, from the values and Newton steps at both ends. Where curvature vanishes, this function
+  /// is smooth, but its inverse is not.
   void step_back(const Feature& feature, const Vec3<W>& n, ModelHit<W>& hit) {
     using std::abs;
     using std::max;
@@ -151,7 +152,7 @@ class SmoothModel {
                      feature.s.y()};
     const Mask<W> worse = lambda < best_lambda_;
 
-    // Along the step that the model wants now.
+    // Interpolates along the step that the model proposes now.
     W e_x = here.to_x - here.x, e_y = here.to_y - here.y;
     const W length = sqrt(e_x * e_x + e_y * e_y);
     e_x /= length;
@@ -170,8 +171,8 @@ class SmoothModel {
       const W there = from + (to - from) * u * u * (W(3) - W(2) * u) +
                       u * (W(1) - u) * (W(1) - u) * first - u * u * (W(1) - u) * last;
       const Mask<W> fits = overshoots & (there > min(from, to)) & (there < max(from, to));
-      // Perpendicular to the step, follows the model. Otherwise takes less of the best direction's
-      // own step.
+      // Perpendicular to the step, follows the model. If that is worse, takes a smaller part of the
+      // best direction's own step.
       const W aside = here.x * -e_y + here.y * e_x;
       damping_ = select(back & worse, W(damping_ * W(T(0.5))), damping_);
       const W to_x = select(fits, W(there * e_x - aside * e_y),
@@ -186,9 +187,10 @@ class SmoothModel {
     best_lambda_ = select(worse, best_lambda_, lambda);
   }
 
-  /// For directions perpendicular to the ray (n.z = 0) in which the ray misses the model, too: the
-  /// least reach lies where its derivative along that circle changes sign. A step that leaves the
-  /// arc between the two signs, or spans over half of it, is replaced by the secant's.
+  /// For directions perpendicular to the ray (n.z = 0) in which the ray misses the model, too.
+  /// Finds the least reach on this circle of directions: where its derivative changes sign. If a
+  /// step leaves the arc between the two signs, or spans over half of the arc, the secant method
+  /// gives the step.
   void stay_between(const Feature& feature, const Vec3<W>& n, ModelHit<W>& hit) {
     using std::abs;
     const Mask<W> on_circle = (abs(n.z()) <= W(tolerance::model_rounding<T>)) &
@@ -196,7 +198,8 @@ class SmoothModel {
     if (!any(on_circle)) return;
     const W slope = n.x() * feature.s.y() - n.y() * feature.s.x();  // counter-clockwise
     const Mask<W> falls = on_circle & (slope < W(0)), rises = on_circle & (slope > W(0));
-    // The slope of an end that stays a second time is halved (the Illinois variant).
+    // If one end of the arc stays twice, its slope is halved (Illinois variant of the secant
+    // method).
     rising_.slope = select(falls & fell_, W(rising_.slope * W(T(0.5))), rising_.slope);
     falling_.slope = select(rises & rose_, W(falling_.slope * W(T(0.5))), falling_.slope);
     fell_ = falls;

@@ -40,9 +40,9 @@ class SumFeatures {
     return {features_[0].sum.c, features_[1].sum.c, features_[2].sum.c, features_[3].sum.c};
   }
 
-  /// Adds the newest feature and returns whether it was there already. Osculating features keep
-  /// their ellipsoids only together with those of other patches that were found in nearly the same
-  /// direction.
+  /// Adds the newest feature and returns true in lanes where it was there already. Older osculating
+  /// features keep their ellipsoids only if they are from other patches and were found in nearly
+  /// the same direction.
   Mask<W> add(const Feature& feature, const Vec3<W>& n) {
     Mask<W> repeated(false);
     for (std::size_t k = 0; k < newest; ++k) {
@@ -93,7 +93,7 @@ class SumFeatures {
     return a.exact & b.exact & (difference == W(0));
   }
 
-  /// Turns a feature into its support point, which is a part of the shape whatever the curvature.
+  /// Replaces a feature by its support point, which is part of the shape for any curvature.
   static void flatten(Feature& feature, const Mask<W>& lanes) {
     if (!any(lanes)) return;
     feature.sum.c = select<W>(lanes, feature.sum.s, feature.sum.c);

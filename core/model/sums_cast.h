@@ -17,8 +17,8 @@ class SumsCast {
   using Sum = EllipsoidSum<W>;
   using Solution = SumsHit<W>;
 
-  /// R is the bounding radius. `surrogate` is an ellipsoid with the shape's extents that replaces
-  /// points, which have no curvature; it is scaled by `shrink`.
+  /// R is the bounding radius. `surrogate` is an ellipsoid with the shape's extents, scaled by
+  /// `shrink`, that replaces points, since points have no curvature.
   SumsCast(const Features& features, T R, const Mat3<W>& surrogate, const W& shrink)
       : features_(features),
         R_(R),
@@ -26,9 +26,9 @@ class SumsCast {
         surrogate_(surrogate),
         shrink_(shrink) {}
 
-  /// Returns the hit on the hull of the features. For points, or translates of one ellipsoid, one
-  /// hull cast suffices. Otherwise features are replaced repeatedly by translates of one ellipsoid
-  /// that combines their curvatures.
+  /// Returns the hit on the hull of the features. One hull cast suffices if all features are
+  /// points, or translates of one ellipsoid. Otherwise, replaces the features repeatedly by
+  /// translates of one ellipsoid that combines their curvatures.
   Solution solve(const Vec3<W>& n) const {
     Mask<W> points(true), common(true);
     for (std::size_t i = 0; i < 4; ++i) {
@@ -66,15 +66,15 @@ class SumsCast {
     Mat3<W> G = Mat3<W>::Zero();  ///< sum of g g^T/h of its summands
   };
 
-  /// The lowest height of a supporting plane so far.
+  /// The direction with the lowest supporting plane so far.
   struct Lowest {
     Vec3<W> m = Vec3<W>::Zero();
     W height = W(std::numeric_limits<T>::infinity());
     Vec3<W> support_point = Vec3<W>::Zero();
-    Mask<W> careful = Mask<W>(false);  ///< the next step from there must not be Newton's
+    Mask<W> careful = Mask<W>(false);  ///< the next step from m must be shorter than Newton's
   };
 
-  /// Returns the hit on translates of one body; `certain` in lanes where it was found.
+  /// Returns the hit on translates of one body. `certain` is set in lanes where a hit was found.
   template <class Body>
   Solution cast(const Body& body, const std::array<Vec3<W>, 4>& c) const {
     Translates<W> others;
@@ -148,8 +148,8 @@ class SumsCast {
       if (!any(goes)) continue;
       EllipsoidBody<W> body{
           factor<W>(mean.H * mean.h + mean.G * outer + mean.g * mean.g.transpose() * own)};
-      // At a kink, uses the flat summand itself and the other values there; among points, which
-      // have no curvature, the surrogate.
+      // At a kink, uses the flat summand itself, with the other values found there. For points,
+      // which have no curvature, uses the surrogate.
       Vec3<W> g_body = mean.g;
       const Mask<W> is_common = common & !kink.here;
       const Mat3<W> about = surrogate_ * shrink_;
@@ -190,11 +190,11 @@ class SumsCast {
     return solution;
   }
 
-  /// If the plane of direction m is higher than the lowest one so far, takes only a part of the
-  /// step from the lowest, to the minimum of the parabola through the known values. A step past the
-  /// shape is replaced by one that cannot be too long (the ellipsoid A = sum h_k sum A_k/h_k
-  /// contains the sum of ellipsoids and touches it in this direction). Returns the lanes whose
-  /// plane is higher. For one feature.
+  /// For one feature. If the plane of direction m is higher than the lowest one so far, takes only
+  /// a part of the step from the lowest: to the minimum of the parabola through the known values.
+  /// If a step leads past the shape, takes the step of an ellipsoid that contains the sum and
+  /// touches it in this direction, A = sum h_k sum A_k/h_k; this step cannot be too long. Returns
+  /// the lanes whose plane is higher.
   Mask<W> step_back(Lowest& lowest, Vec3<W>& m, const Look& look, const Mask<W>& lanes) const {
     using std::max;
     using std::min;
@@ -222,10 +222,10 @@ class SumsCast {
     return higher;
   }
 
-  /// Keeps the solution certain if it is the model's hit up to rounding: all carriers agree,
-  /// nothing reaches further, and the carriers' support points combine to a point on the ray; for
-  /// osculating carriers, which prove nothing by themselves, their support points where they were
-  /// found.
+  /// Keeps `certain` set only if the solution is the model's hit up to rounding: the planes of all
+  /// carriers agree, no feature reaches further, and the carriers' support points combine to a
+  /// point on the ray. Osculating carriers use the support points of the shape in the directions
+  /// where they were found, since their own prove nothing.
   void judge(Solution& solution, const Mask<W>& common, const Mask<W>& at_kink) const {
     using std::max;
     const Vec3<W>& m = solution.m;
@@ -249,7 +249,7 @@ class SumsCast {
       found += select<W>(features_.valid(i), Vec3<W>(sum.s * weight), Vec3<W>(Vec3<W>::Zero()));
       solution.exact &= (!features_.valid(i)) | (weight == W(0)) | sum.exact;
     }
-    // From p to the point where the ray crosses p's plane.
+    // The distance from p to the point where the ray crosses p's plane.
     const W drop = (m.x() * p.x() + m.y() * p.y()) / select(ahead, m.z(), W(1));
     const W away = p.x() * p.x() + p.y() * p.y() + drop * drop;
     const Mask<W> agrees = (highest - mean <= W(tolerance::jet_gap<T> * R_)) &

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The model for all other shapes: the hull of up to four sums of ellipsoids. There is no closed
-// form; Newton's method finds the hit, without support calls (sums_cast.h). docs/forms.md derives
-// it.
+// The model for all other shapes: the hull of up to four sums of ellipsoids. This hull has no
+// closed form for the hit, so Newton's method finds it, without support calls (sums_cast.h).
+// docs/forms.md derives it.
 #pragma once
 
 #include "core/model/line_cast.h"
@@ -49,7 +49,8 @@ class SumsModel {
     if (iteration >= 3) shrink_ *= W(T(0.5));
     const SumsCast<W> cast(features_, R_, surrogate_, shrink_);
     SumsHit<W> found = cast.solve(n);
-    // Ellipsoids that osculate in other directions may be wrong and keep the direction unchanged.
+    // Ellipsoids that osculate in other directions may be wrong, and stop the search at this
+    // direction.
     const Mask<W> stalls =
         (!found.certain) & ((found.m - n).squaredNorm() <= W(tolerance::epsilon<T>));
     if (any(stalls)) {

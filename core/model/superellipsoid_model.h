@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The model of a superellipsoid: itself. Its gauge along the ray is a convex function of one
-// variable, which is 1 where the ray meets the surface; the gauge's gradient there is the normal,
-// and one support call in its direction proves the hit. If the least gauge is above 1, two tangents
-// of it that cross above 1 make a plane that separates. docs/forms.md, section 9.
+// The model of a superellipsoid is the shape itself. Its gauge along the ray is a convex function
+// of one variable, with value 1 where the ray meets the surface. The gauge's gradient there is the
+// normal, and one support call in this direction proves the hit. If the least gauge is above 1, two
+// of its tangents that cross above 1 give a separating plane. docs/forms.md, section 9.
 #pragma once
 
 #include "core/model/line_cast.h"
@@ -52,10 +52,10 @@ class SuperellipsoidModel {
     return hit;
   }
 
-  /// Called only if the plane does not confirm the hit that `begin` found. If planes are so steep
-  /// that their rounding is large along the ray, the plane itself may meet the ray at a point of
-  /// the shape, up to rounding. Otherwise the ray is tangent up to rounding: a plane along it
-  /// follows.
+  /// Called only if the plane does not confirm the hit that `begin` found. If planes are so nearly
+  /// parallel to the ray that rounding is large along the ray, the plane may still meet the ray at
+  /// a point of the shape, up to rounding. Otherwise the ray is tangent up to rounding, and the
+  /// next plane is along the ray.
   ModelHit<W> step(const Feature& feature, const Vec3<W>& n, int) {
     const W z = against_ray(n);
     const Mask<W> ahead = z > W(0);
@@ -71,12 +71,12 @@ class SuperellipsoidModel {
 
  private:
   struct Found {
-    Mask<W> hits;  ///< at `lambda`
+    Mask<W> hits;  ///< a hit at `lambda`
     W lambda;
-    Vec3<W> gradient;  ///< of the gauge there; on a miss, of the least gauge
+    Vec3<W> gradient;  ///< gradient of the gauge at the hit; for a miss, at the least gauge
   };
 
-  /// A point of the line and the gauge's tangent there.
+  /// A point of the line, and the tangent of the gauge at this point.
   struct Tangent {
     W lambda, value, slope;
     Vec3<W> gradient = Vec3<W>::Zero();
@@ -96,8 +96,9 @@ class SuperellipsoidModel {
     Vec3<W> gradient;
   };
 
-  /// Crossing of two tangents on either side of the least gauge: a lower bound of the gauge. The
-  /// mean of the tangents that is constant along the ray is the gradient of a plane along the ray.
+  /// Crossing of two tangents on either side of the least gauge, which bounds the gauge from below.
+  /// A weighted mean of the tangents is constant along the ray; its gradient is the normal of a
+  /// plane along the ray.
   static Crossing crossing(const Tangent& left, const Tangent& right, const Mask<W>& both) {
     const W fall = -left.slope, sum = select(both, W(fall + right.slope), W(1));
     const W difference = fall * right.slope * (right.lambda - left.lambda);
@@ -112,10 +113,10 @@ class SuperellipsoidModel {
     return select<W>(crosswise.squaredNorm() > W(0), crosswise, Vec3<W>(-r_));
   }
 
-  /// The line is u_ + lambda v_, in units of the radii. The tangent's zero of (gauge - 1) is a
-  /// lower bound of the first hit, since the gauge is convex. The square of the gauge is nearly a
-  /// parabola (for p = 2 it is one), whose zero is the next guess; if it is outside the known
-  /// interval, the interval's middle is.
+  /// The line is u_ + lambda v_, in units of the radii. The gauge is convex, so the zero of a
+  /// tangent of (gauge - 1) is a lower bound of the first hit. The square of the gauge is nearly a
+  /// parabola (exactly, for p = 2), and the parabola's zero is the next guess. If this zero is
+  /// outside the known interval, the next guess is the middle of the interval.
   Found find() const {
     using std::abs;
     using std::max;
@@ -123,7 +124,7 @@ class SuperellipsoidModel {
     using std::sqrt;
     const W separated = W(T(2) * tolerance::jet_gap<T> * R_);
 
-    // Starts where the line meets a ball between the inscribed and the circumscribed one.
+    // Starts where the line meets a ball between the inscribed and the circumscribed ball.
     const W v_squared = v_.squaredNorm(), v_length = sqrt(v_squared), along = u_.dot(v_);
     const Vec3<W> nearest = u_ - v_ * (along / v_squared);
     const W radius_squared = W(between_balls());
@@ -146,7 +147,7 @@ class SuperellipsoidModel {
       const Mask<W> falls = gauge.slope < W(0);
       const Mask<W> meets = den > W(0);
       const W root = sqrt(max(den, W(0)));
-      // Without cancellation, on either side of the least gauge.
+      // These formulas have no cancellation on either side of the least gauge.
       const W to_zero = select(falls, W(over / (root - b)), W(-(root + b) / c));
       const W next = lambda + select(meets, to_zero, W(-b / c));
       const W tangent_zero = lambda - (gauge.value - W(1)) / select(falls, gauge.slope, W(-1));
@@ -183,7 +184,8 @@ class SuperellipsoidModel {
 
       lower = select(falls, max(lower, tangent_zero), lower);
       upper = select(falls & outside, upper, min(upper, lambda));
-      // A bound that is beyond the least gauge proves a miss, but does not locate that gauge.
+      // If a bound is beyond the least gauge, it proves a miss, but does not locate the least
+      // gauge.
       const Mask<W> in_order = lower < upper;
       const W from = select(in_order, lower, left.lambda);
       const Mask<W> fits = (next > from) & (next < upper), creeps = in_order & (next <= from);
@@ -193,32 +195,34 @@ class SuperellipsoidModel {
     return found;
   }
 
-  /// Change of the gauge, with this gradient, due to a few roundings of a position.
+  /// Change of a gauge with this gradient, caused by a few roundings of a position.
   W rounding_of(const Vec3<W>& gradient) const {
     return gradient.cwiseProduct(to_unit_).norm() * W(T(2) * tolerance::epsilon<T> * R_);
   }
 
-  /// True if the parabola is as good as the gauge over a step of this length, in units of the
-  /// radii. The gauge's third derivative is about p^2 at most for p >= 3; for less it is unbounded
-  /// where a coordinate changes its sign, and there the gauge deviates as |x|^p.
+  /// True if the parabola is as accurate as the gauge over a step of this length, in units of the
+  /// radii. For p >= 3, the gauge's third derivative is at most about p^2. For smaller p, the
+  /// derivative is unbounded where a coordinate changes sign, and the gauge deviates from the
+  /// parabola like |x|^p.
   Mask<W> trusted(const W& step) const {
     const T p = shape_.exponent;
     if (p < T(3)) return power<W>(step, p) <= W(tolerance::epsilon<T>);
     return step * step * step * W(T(1) + p * p * T(0.25)) <= W(tolerance::epsilon<T>);
   }
 
-  /// The square of a radius between those of the largest ball inside of the shape and the smallest
-  /// around it, in units of its radii: about 3^(1/2 - 1/p), their product.
+  /// The square of the radius of the starting ball, in units of the radii: about 3^(1/2 - 1/p), the
+  /// product of the radii of the largest ball inside the shape and the smallest ball around it.
   T between_balls() const {
     constexpr T box = T(1.7320508), octahedron = T(0.57735027);
     return std::max(octahedron, box - (T(2) * box - T(2)) / shape_.exponent);
   }
 
-  /// Most rays need two or three; those that graze a flat spot or a sharp edge up to some twenty.
+  /// Most rays need two or three evaluations; those that graze a flat spot or a sharp edge, up to
+  /// twenty.
   static constexpr int max_evaluations = 32;
 
   const S& shape_;
-  Vec3<W> from_, s_, r_;  ///< the ray's s in the shape's frame and in the ball's
+  Vec3<W> from_, s_, r_;  ///< s in the shape's frame; s and r in the ball's frame
   Vec3<W> to_unit_;       ///< 1 / radii
   Vec3<W> u_, v_;         ///< s and r in units of the radii
   T R_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The model for shapes that are the hull of translates of one body: of a ball around the vertices
-// of a polytope, or of an ellipsoid. The model is the hull of up to four of them.
+// The model for hulls of translates of one body: of a ball around each vertex of a polytope, or of
+// one ellipsoid. The model is the hull of up to four translates.
 #pragma once
 
 #include "core/model/entered_facet.h"
@@ -30,8 +30,8 @@ struct RoundedPolytope {
   Lane<W> radius;
 
   Body body(const RayFrame<W>&) const { return {W(radius)}; }
-  /// Returns the translate that reaches furthest along n, relative to `from`, at least in the lanes
-  /// that are wanted. n and the result are in the ray's frame, `from` in the shape's.
+  /// Returns the translate that reaches furthest along n, relative to `from`. Lanes that are not
+  /// wanted may get any translate. n and the result are in the ray's frame, `from` in the shape's.
   Translate<W, Body> furthest(const Vec3<W>& n, const Mask<W>& wanted, const Vec3<W>& from,
                               const RayFrame<W>& frame) const {
     return {frame.into(support_where<W>(core, wanted, frame.out_of(n)) - from), {W(radius)}};
@@ -39,7 +39,7 @@ struct RoundedPolytope {
   static Mask<W> alike(const Body&, const Body&) { return Mask<W>(true); }
 };
 
-/// A shape whose jets are presumed to be exact and to differ only in their centres.
+/// A shape whose jets are assumed to be exact and to differ only in their centres.
 template <class W, class S>
 struct JetTranslates {
   using Core = void;
@@ -54,7 +54,7 @@ struct JetTranslates {
                               const RayFrame<W>& frame) const {
     const Jet<W> jet = shape.template jet<W>(frame.out_of(n));
     Translate<W, Body> feature{frame.into(jet.c - from), turned(jet.F, frame)};
-    if (!all(jet.exact)) {  // only the support point, which differs from the others
+    if (!all(jet.exact)) {  // the support point, so that the translate differs from the others
       feature.c = select<W>(jet.exact, feature.c, frame.into(jet.s - from));
       for (int k = 0; k < 3; ++k)
         feature.body.F.col(k) =
@@ -147,7 +147,7 @@ class TranslatesModel {
   }
 
   ModelHit<W> step(const Feature& feature, const Vec3<W>&, int) {
-    // Removes an older copy of the newest feature, which will be stored in a free place.
+    // Removes an older copy of the newest feature; the newest is stored in a free place later.
     Mask<W> repeated(false);
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3<W>& c = kept_.c[k];
@@ -168,8 +168,8 @@ class TranslatesModel {
  private:
   using Known = Facets<W, typename Bodies::Core>;
 
-  /// Returns the hit on the hull of the kept features and this one, which is not among them. Then
-  /// keeps only those that carry the hit.
+  /// Returns the hit on the hull of the kept features and this one, which is not among the kept.
+  /// Then keeps only the features that carry the hit.
   ModelHit<W> keep(const Feature& feature, const HullCastHit<W>& on_hull) {
     ModelHit<W> hit;
     hit.m = on_hull.m;

@@ -19,7 +19,7 @@ namespace minkray {
 /// access to the shape.
 using SupportFunction = std::function<Vec3<double>(const Vec3<double>&)>;
 
-/// The shape must outlive the function.
+/// Wraps a shape, which must outlive the function.
 inline SupportFunction supports_of(const Shape& shape) {
   return [&shape](const Vec3<double>& n) { return shape.support(n); };
 }
@@ -27,9 +27,9 @@ inline SupportFunction supports_of(const Shape& shape) {
 /// A solver's result for a ray, in the ray's frame.
 struct Claim {
   Status status = Status::exhausted;
-  double t_base = 0, t_offset = 0;  ///< of hits: t is their sum
+  double t_base = 0, t_offset = 0;  ///< for hits: t is their sum
   Vec3<double> normal = Vec3<double>::Zero();
-  double epsilon = std::numeric_limits<double>::epsilon();  ///< that of the solver's precision
+  double epsilon = std::numeric_limits<double>::epsilon();  ///< of the solver's number type
 };
 
 template <class T>
@@ -47,7 +47,7 @@ struct WeightedSupport {
 /// The proof. Stores only directions; the support mapping returns their points.
 struct Certificate {
   /// Hit: the normal of the plane that gives t_lo. Miss: the normal of a plane between shape and
-  /// ray. Zero if no plane is needed or found.
+  /// ray. Zero if no plane is needed, or if none was found.
   Vec3<double> plane = Vec3<double>::Zero();
   /// Hit: these points span a point on the ray. Inside: these points span the ray's origin.
   std::array<WeightedSupport, 4> spanning;

@@ -10,9 +10,9 @@
 
 namespace minkray {
 
-/// Error allowed in each condition, in units of the claim's machine epsilon times the `size` of
-/// NearSegment. The rounding of support points, of the ray near the shape, of planes and of sums of
-/// points is a few units each. See docs/certificates.md for measurements.
+/// Error allowed in each condition, in units of the claim's epsilon times NearSegment::size.
+/// Support points, the ray near the shape, planes, and sums of points each have a rounding of a few
+/// units. See docs/certificates.md for measurements.
 inline constexpr double certificate_rounding = 64;
 
 /// Result of the checker. Lengths are in units of the scene.
@@ -28,7 +28,7 @@ struct CertificateVerdict {
       0;               ///< hit: at the spanned point; due to rounding, may be before the planes
   double gap = 0;      ///< hit: depth of the spanned point below the plane, (t_hi - t_lo) * cosine
   double lateral = 0;  ///< distance of the spanned point from the ray (hit) or origin (inside)
-  double margin = 0;   ///< miss: from the plane to the ray; negative if the ray crosses the plane
+  double margin = 0;   ///< miss: distance from the plane to the ray; negative if they cross
   /// Hit: distance of the claimed point from the claimed plane, or height above the proven plane.
   double claim_error = 0;
   double late = 0;     ///< hit: distance along the ray of the claimed t beyond the proven t_hi

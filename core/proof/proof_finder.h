@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Finds the proof of a result by the GJK ray cast and the GJK distance of van den Bergen (2004).
-// Both end with a point that support points span. Points are relative to the shape's middle.
+// Finds the proof of a result, with the GJK ray cast and the GJK distance of van den Bergen (2004).
+// Both end with a point that is spanned by support points. Points are relative to the shape's
+// middle.
 #pragma once
 
 #include <cmath>
@@ -22,10 +23,10 @@ inline constexpr std::array tilts = {0x1p-26, 0x1p-24, 0x1p-21, 0x1p-14};
 inline constexpr int tilt_directions = 6;
 inline constexpr int refinements = 24;
 
-/// Number of steps of the secant method; near the solution they converge like Newton's method.
+/// Number of steps of the secant method, which near the solution converges like Newton's method.
 inline constexpr int secant_steps = 16;
-/// After a step without effect, such as within a corner's normals, the next step is longer by this
-/// factor.
+/// After a step that does not change the support point, such as within a corner's normals, the next
+/// step is longer by this factor.
 inline constexpr double longer_step = 16;
 
 /// Finds points of one shape near one ray.
@@ -45,9 +46,9 @@ class Finder {
     return support_(n) - near_.centre;
   }
 
-  /// Casts the ray from lambda on. Finds the ray's first point in the shape, as a point spanned by
-  /// support points, and the last plane that clipped the ray. Returns the distance between the
-  /// ray's point and the spanned point; infinite for a miss.
+  /// Casts the ray from lambda on. Finds the ray's first point in the shape, the point nearest to
+  /// it that support points span, and the last plane that clipped the ray. Returns the distance
+  /// between the two points; infinite for a miss.
   double enter(Vec3<double> n, double& lambda) {
     Vec3<double> x = near_.at(lambda);
     SpannedPoint spanned(x.cast<Long>());
@@ -100,12 +101,12 @@ class Finder {
     return spanned.off();
   }
 
-  /// Finds a point of the shape near x(lambda), where the normal is about n, among triangles of
+  /// Finds a point of the shape near x(lambda), where the normal is about n. Tries triangles of
   /// support points in directions tilted slightly from n. On a face with rounded edges, or a patch
-  /// of curvature radius rho, tilts by delta give points at rho * delta around the hit point, and
-  /// only rho * delta^2 below it. Returns the distance of the best point from x(lambda). Uses long
-  /// double, since a point between a sliver's corners loses digits in proportion to the sliver's
-  /// thinness.
+  /// with radius of curvature rho, tilts by delta give points at a distance rho * delta around the
+  /// hit point, and only rho * delta^2 below it. Returns the distance of the best point from
+  /// x(lambda). Uses long double: a point between a sliver's corners loses digits in proportion to
+  /// the sliver's thinness.
   double refine(double lambda, const Vec3<double>& n) {
     const Vec3<Long> x = near_.s.cast<Long>() + Long(lambda) * near_.r.cast<Long>();
     std::vector<Seen> seen;
@@ -121,8 +122,7 @@ class Finder {
     see(n);
     for (const double delta : tilts)
       for (int i = 0; i < tilt_directions; ++i) see(n + delta * around(n, i));
-    // Finds the nearest triangle; if this is not near enough, adds support points near the
-    // triangle.
+    // Finds the nearest triangle. If it is not near enough, adds support points near this triangle.
     ClosestPoint<Long> best;
     Long best_squared = std::numeric_limits<Long>::infinity();
     std::array<std::size_t, 3> corners{};
@@ -154,8 +154,8 @@ class Finder {
     for (const Vec3<double>& from : {n, unit<double>(x.cast<double>())})
       if (!is_near_enough() && !from.isZero(0) && see(towards(x, from))) try_with_last();
     for (int round = 0; round < refinements && !is_near_enough(); ++round) {
-      // Searches beyond the triangle's side, with n tilted towards this side by small and large
-      // angles.
+      // Searches beyond the triangle's side that is nearest to x: tilts n towards this side by
+      // small and large angles.
       const Vec3<double> v = (best.v / std::sqrt(best_squared)).cast<double>(),
                          aside = unit<double>(v - n.dot(v) * n);
       bool found = false;
@@ -189,15 +189,16 @@ class Finder {
     Vec3<double> direction;
   };
 
-  /// Returns the i-th direction, perpendicular to n, towards which n is tilted.
+  /// Returns the i-th of the directions perpendicular to n towards which n is tilted.
   static Vec3<double> around(const Vec3<double>& n, int i) {
     const Vec3<double> a = n.unitOrthogonal(), b = n.cross(a);
     const double angle = 2 * std::numbers::pi * i / tilt_directions;
     return std::cos(angle) * a + std::sin(angle) * b;
   }
 
-  /// Returns a direction whose support point is nearer to x than that of n, if the surface bends,
-  /// as along a rim. Uses the secant method, since the point moves with the direction.
+  /// Returns a direction whose support point is nearer to x than that of n. Succeeds if the surface
+  /// bends, as along a rim, so that the support point moves with the direction. Uses the secant
+  /// method.
   Vec3<double> towards(const Vec3<Long>& x, Vec3<double> n) {
     if (!(near_.size > 0)) return n;
     double step = 1 / near_.size;

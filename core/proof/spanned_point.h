@@ -21,7 +21,8 @@ class SpannedPoint {
     simplex_.move(x);
     squared_ = std::numeric_limits<long double>::infinity();
   }
-  /// Adds p, the support point along n. False if the spanned point came no nearer to x.
+  /// Adds p, the support point along n. Returns false if this does not bring the spanned point
+  /// nearer to x.
   bool add(const Vec3<long double>& p, const Vec3<double>& n) {
     if (simplex_.full() || simplex_.holds(p)) return false;
     directions_[static_cast<std::size_t>(simplex_.add(p))] = n;
