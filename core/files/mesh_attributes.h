@@ -22,13 +22,13 @@ struct MeshAttributes {
   std::vector<Vec3<float>> normals;  ///< of unit length; zero: unusable
   /// Texture coordinates; v goes from the top down, as the rows of pictures.
   std::vector<std::array<float, 2>> uvs;
-  /// Numbers of the three corners' normals and coordinates, by triangle; empty if no triangle has
-  /// any.
+  /// For each triangle, the numbers of its corners' normals and coordinates; empty if no triangle
+  /// has any.
   std::vector<Numbers> normal_of, uv_of;
   std::vector<std::uint32_t> material_of;  ///< by triangle; empty if no triangle has a material
   std::vector<std::string> materials;      ///< names of an OBJ file's materials, by number
   std::vector<std::string> libraries;      ///< material files that an OBJ file names
-  /// Numbers of triangles whose invalid normals or coordinates are omitted.
+  /// Counts of triangles whose normals or coordinates were invalid and are omitted.
   std::size_t bad_normals = 0, bad_uvs = 0;
 
   bool any() const { return !normal_of.empty() || !uv_of.empty() || !material_of.empty(); }
@@ -49,16 +49,16 @@ MeshAttributes attributes_of(const MeshAttributes& all, std::span<const std::uin
 void append(MeshAttributes& all, std::size_t before, const MeshAttributes& more, std::size_t count,
             std::uint32_t first_material);
 
-/// Maps normals by the inverse transpose of a linear map. Swaps two corners of each triangle if the
-/// map mirrors, as for the mesh's triangles.
+/// map_normals maps normals by the inverse transpose of a linear map. If the map mirrors, also call
+/// swap_corners, which swaps two corners of each triangle, as for the mesh's triangles.
 void map_normals(MeshAttributes& attributes, const Mat3<double>& inverse_transpose);
 void swap_corners(MeshAttributes& attributes);
 
 /// Describes omitted attributes; empty if there are none.
 std::vector<std::string> notes_of(const MeshAttributes& attributes);
 
-/// Mean normals of the triangles around each vertex, weighted by their angles there. Triangles that
-/// meet at more than `crease` radians do not share normals.
+/// Returns the mean normals of the triangles around each vertex, weighted by their angles at the
+/// vertex. Triangles that meet at an angle of more than `crease` radians do not share normals.
 MeshAttributes smooth_normals(std::span<const Vec3<double>> vertices,
                               std::span<const std::array<std::uint32_t, 3>> triangles,
                               double crease);

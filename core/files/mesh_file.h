@@ -21,15 +21,15 @@ struct MeshAttributes;
 /// becomes a fan; a face with fewer repeats its last corner.
 struct MeshTriangles {
   std::vector<std::array<std::uint32_t, 3>> corners;  ///< the vertices' numbers, from 0 on
-  /// The group of each triangle. In an OBJ file: the faces below an "o" or "g" line with a new
-  /// name. In an STL file: a solid.
+  /// The group of each triangle. A group of an OBJ file is the faces below an "o" or "g" line with
+  /// a new name. A group of an STL file is a solid.
   std::vector<std::uint32_t> groups;
 };
 
 /// Returns all vertices, in the file's order and unit: at least one, each finite. If not null,
-/// `triangles` receives the triangles, and `attributes` those of an OBJ file, for which settle()
-/// must still be called. Throws std::runtime_error that describes the error in the file, without
-/// the file's name: "line 12: ...".
+/// `triangles` receives the triangles, and `attributes` the attributes of an OBJ file, for which
+/// the caller must call settle(). Throws std::runtime_error that describes the error in the file,
+/// without the file's name: "line 12: ...".
 std::vector<Vec3<double>> read_mesh_vertices(const std::filesystem::path& path,
                                              MeshTriangles* triangles = nullptr,
                                              MeshAttributes* attributes = nullptr);

@@ -15,7 +15,7 @@
 
 namespace minkray::text_file {
 
-/// Removes the mark with which editors on Windows begin UTF-8.
+/// Removes the byte order mark that some editors on Windows write at the beginning.
 inline std::string_view without_byte_order_mark(std::string_view text) {
   constexpr std::string_view mark = "\xef\xbb\xbf";
   if (text.starts_with(mark)) text.remove_prefix(mark.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Builds the result of a closed form for a pair of cores, in which both bounds are equal.
+// Builds the result of a closed form for a pair of cores. Both bounds are then equal.
 #pragma once
 
 #include "core/math/length.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Two cores A and B in A's frame, and the solvers' queries on C, the set of all b - a with b in B
-// and a in A. The distance of the cores is that of C from the origin. If the cores overlap, their
-// penetration depth is the depth of the origin in C. The signed distance is the maximum over unit
-// vectors n of the minimum of n.c over c in C.
+// Two cores A and B in A's frame, and the solvers' queries on C, the set of all b - a with a in A
+// and b in B. The distance of the cores is the distance of C from the origin. If the cores overlap,
+// their penetration depth is the depth of the origin in C. The signed distance is the maximum of
+// g(n) over all unit vectors n, where g(n) is the minimum of n.c over c in C.
 #pragma once
 
 #include "core/pair/core_support.h"
@@ -79,12 +79,12 @@ struct CoreDistance {
   }
 };
 
-/// Distance of a test for other directions of least depth: B is moved deeper along the axis by this
+/// Tests whether other directions also have the least depth: moves B deeper along the axis by this
 /// distance. The depth along another direction grows by the distance times the cosine of its angle
 /// to the axis. If the least depth grows by at least 1 - `leaning` of the distance, its direction
 /// is unique.
 inline double deeper_by(const CorePair& pair) {
-  constexpr double step = 1e-4;  // of the sizes
+  constexpr double step = 1e-4;  // relative to the sizes
   return step * (pair.size() + pair.radii());
 }
 /// Least value of 1 - cos(angle) between directions that count as different.

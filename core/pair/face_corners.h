@@ -17,8 +17,8 @@ struct PlaneCorner {
 };
 
 /// Returns the hull's points for which takes(height) is true, where `height` is measured along n
-/// from the given point. The points are in no order, and their angles are not set. The list is
-/// valid until the next call in the same thread.
+/// from the given point. The points are not sorted, and their angles are not set. The list is valid
+/// until the next call in the same thread.
 template <class Takes>
 std::vector<PlaneCorner>& face_corners(const ShapeCore& core, const Vec3<double>& point,
                                        const Vec3<double>& n, const Takes& takes) {

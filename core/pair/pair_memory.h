@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Warm start: final state of a query on a pair of bodies, which the caller passes to the next
+// Warm start: the final state of a query on a pair of bodies, which the caller passes to the next
 // query. Contains the separating axis (G. van den Bergen, "Ray Casting against General Convex
 // Objects", 2004, section 4) and the features of the nearest points. The state only sets where a
-// search starts, so results are proven for any contents, even those of another pair.
+// search starts. Results are therefore proven for any contents, even those of another pair.
 #pragma once
 
 #include <cstdint>

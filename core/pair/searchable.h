@@ -4,8 +4,8 @@
 
 namespace minkray {
 
-/// Limits of lengths whose sixth powers (such as squares of triple products) are normal numbers, so
-/// that they neither overflow nor lose digits.
+/// Limits of lengths. Between them, sixth powers of lengths (such as squares of triple products)
+/// are normal numbers: they neither overflow nor lose digits.
 inline constexpr double largest_length = 0x1p160;
 inline constexpr double smallest_length = 1 / largest_length;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Finds the point of a simplex (up to four points) that is closest to the origin, and its weights.
-// Tests the faces that have the origin on their outer side (C. Ericson, "Real-Time Collision
+// Tests only the faces whose outer side contains the origin (C. Ericson, "Real-Time Collision
 // Detection", 2005, section 5.1). The determinants share their cross products.
 #pragma once
 

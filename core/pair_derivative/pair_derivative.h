@@ -22,7 +22,7 @@ struct TwistDerivative {
 
 struct PairDerivative {
   TwistDerivative a, b;
-  /// True if the derivative may not be unique; this is then one of several.
+  /// True if there may be several derivatives; `a` and `b` are then one of them.
   bool is_ridge = false;
 };
 
@@ -34,20 +34,21 @@ inline SignedDistanceOptions for_derivatives(SignedDistanceOptions options = {})
   return options;
 }
 
-/// `found` is the pair's result with both bounds, computed with for_derivatives(); otherwise the
-/// derivative is NaN and marked as a ridge. Writes `error` if not null: the bound holds for all
-/// poses within `drift`.
+/// `found` must be the pair's result, computed with for_derivatives(), and have both bounds;
+/// otherwise the derivative is NaN and marked as a ridge. Writes `error` if not null. The error
+/// bound holds for all poses within `drift`.
 PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a,
                              const ContactShape& b, const Affine<double>& pose_b,
                              const SignedDistance& found, PairDerivativeError* error = nullptr,
                              const Drift& drift = {});
 
-/// Also computes the signed distance, as accurately as the derivative needs.
+/// Computes the signed distance as accurately as the derivative needs, and then the derivative.
 PairDerivative finest_derivative_of(const ContactShape& a, const Affine<double>& pose_a,
                                     const ContactShape& b, const Affine<double>& pose_b,
                                     PairDerivativeError* error = nullptr);
 
-/// B is the shape passed to distance_to_half_space(). A's origin is `origin`.
+/// A is a half-space whose body has its origin at `origin`. B and `found` are the shape and the
+/// result of distance_to_half_space().
 PairDerivative derivative_at_half_space(const Vec3<double>& origin, const ContactShape& b,
                                         const Affine<double>& pose_b, const SignedDistance& found,
                                         PairDerivativeError* error = nullptr,

@@ -10,7 +10,8 @@
 namespace minkray {
 
 /// Upper bounds of the length of the difference from the true derivative. Infinite if unknown: on
-/// ridges, for depths in several directions, for turns about points that may slide.
+/// ridges, for depths in several directions, and for turns if the nearest points may slide along an
+/// edge or a face.
 struct TwistError {
   double by_velocity = std::numeric_limits<double>::infinity();
   double by_turn = std::numeric_limits<double>::infinity();
@@ -35,8 +36,8 @@ PairDerivativeError error_of(const CoresInWorld& cores, const CoreContact& conta
                              const Drift& drift = {});
 
 /// A is a half-space, and the error of its normal is at most `tilt`. `down` is the opposite of the
-/// normal, in the frame of B's core. The bodies' origins are in the frame of the points that were
-/// found.
+/// normal, in the frame of B's core. The bodies' origins are in the same frame as the points of
+/// `found`.
 PairDerivativeError error_at_half_space(const ShapeCore& core_b, const Vec3<double>& down,
                                         double tilt, const SignedDistance& found,
                                         const Vec3<double>& origin_a, const Vec3<double>& origin_b,

@@ -25,7 +25,7 @@ struct CoresInWorld {
 
   Vec3<double> support_a(const Vec3<double>& n) const;
   Vec3<double> support_b(
-      const Vec3<double>& n) const;  ///< furthest along n, relative to A's middle
+      const Vec3<double>& n) const;  ///< furthest point along n, relative to A's middle
   double size() const { return a.ball + b.ball; }
   /// Error of support points.
   double rounding() const { return core_rounding * (size() + between.x.norm()) + between.loss; }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Distance of two cores by GJK on C = B - A (core_pair.h). GJK keeps up to four points of C, finds
-// the point of their hull closest to the origin, and adds the support point in that direction d. On
+// the point d of their hull closest to the origin, and adds the point c of C with the least d.c. On
 // curved surfaces GJK converges linearly, so after a few iterations flat ends (flat_ends.h) and
-// sliding features (sliding_features.h) take over. The plane through the support point gives a
-// lower bound, the closest point an upper bound; the loop ends when the bounds meet.
+// sliding features (sliding_features.h) take over. The plane through c gives a lower bound, d an
+// upper bound; the loop ends when the bounds meet.
 #pragma once
 
 #include "core/pair_distance/flat_ends.h"
@@ -77,8 +77,8 @@ class CurvedGjk {
   }
 
  private:
-  /// Number of GJK iterations before sliding features take over: if a separating plane is known,
-  /// and if not.
+  /// Number of GJK iterations before sliding features take over: with a known separating plane, and
+  /// without.
   static constexpr int turns_apart = 2, turns_near = 6;
   /// Damping of the first step, relative to the size, if the sliding features come from a previous
   /// query.
@@ -122,9 +122,9 @@ class CurvedGjk {
 
   /// Starts from the final state of the previous query on the pair: the stored features give points
   /// of C at any pose of the bodies. Returns true if the state led to the result; otherwise the
-  /// search continues from d and the kept points. Features are needed as well as the direction: on
-  /// a surface known only by its support mapping, a new simplex would consist of points so close to
-  /// each other that its closest point has few digits.
+  /// search continues from d and the kept points. The direction alone is not enough: on a surface
+  /// known only by its support mapping, a new simplex would consist of points so close to each
+  /// other that its closest point has few digits.
   bool resume(const PairMemory& memory, Vec3<double>& d, double& squared) {
     if (!memory.has_axis()) return false;
     take_features_of(memory);
@@ -159,7 +159,7 @@ class CurvedGjk {
     return false;
   }
 
-  /// Takes the stored features, except numbers that are no features of these cores.
+  /// Takes the stored features, except numbers that are not features of these cores.
   void take_features_of(const PairMemory& memory) {
     const Vec3<double> of_b = query_.pair.to_b(-memory.axis);
     for (int i = 0; i < 4 && i < memory.count; ++i) {

@@ -43,7 +43,7 @@ class DepthDirection {
       Candidates near;
       features.around(angle, [&](const DifferencePoint& p) { near.add(p); });
       if (try_triples(near, furthest, enclosure, is_sure)) return true;
-      // At an edge or a corner of C, other points that are needed are further away.
+      // At an edge or a corner of C, some of the points needed are further away.
       Candidates all;
       for (std::size_t i = 0; i < std::min<std::size_t>(near.count, 6); ++i)
         all.add(near.points[i]);

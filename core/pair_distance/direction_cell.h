@@ -119,8 +119,8 @@ class DirectionCellBound {
   double value() const {
     const double allowed = highest_ + direction_rounding * size_;
     // On the flat triangle, which is nearer to the origin than the sphere, u is concave, so u is
-    // largest at a candidate. From the triangle to the sphere, u changes by a factor between these
-    // two.
+    // largest at a candidate. From a point of the triangle to the sphere, u changes by a factor of
+    // 1 to 1 / nearest.
     const PlainVector normal =
         (cell_.corner(1) - cell_.corner(0)).cross(cell_.corner(2) - cell_.corner(0));
     const double nearest = std::abs(normal.dot(cell_.corner(0))) / normal.norm();
@@ -168,11 +168,11 @@ class DirectionCellBound {
     }
   }
 
-  /// Adds the candidate where n.p = n.q = n.r, if it is in the cell or just outside. If the
-  /// points are collinear, the middle one bounds nothing. For slivers, rounding turns n
-  /// considerably. This only matters if the foot of the origin on the points' plane is in their
-  /// triangle; otherwise u is larger at another candidate. The foot is no further along n than the
-  /// furthest of the three points, and neither is the plane, up to the square of the turn.
+  /// Adds the candidate where n.p = n.q = n.r, if it is in the cell or just outside. If the points
+  /// are collinear, the middle point bounds nothing. For slivers, rounding turns n considerably.
+  /// This only matters if the foot of the origin on the points' plane is in their triangle;
+  /// otherwise u is larger at another candidate. The foot, and up to the square of the turn also
+  /// the plane, is no further along n than the furthest of the three points.
   void add_triple(const PlainVector& p, const PlainVector& q, const PlainVector& r) {
     constexpr double in_line = 1e-12, beside = 1e-3;
     // Rounding of a cross product, relative to the product of its factors' lengths.

@@ -23,21 +23,21 @@ namespace minkray {
 template <CoreKind A, CoreKind B>
 class ExpandingPolytope {
  public:
-  /// Starts from the result `found`. Searches until the bounds differ by `gap`, relative to the
-  /// size.
+  /// Starts from the result `found`. Searches until the bounds differ by at most `gap`, relative to
+  /// the size.
   ExpandingPolytope(const CorePair& pair, double gap, const CoreDistance& found)
       : pair_(pair), size_(pair.size() + pair.x.norm()), gap_(gap * size_), found_(found) {
     found_.upper = 0;
   }
 
-  /// Grows from four points c of C that enclose the origin; `a` has their points of A. Returns true
-  /// if the bounds have met (they hold in any case). The result's a and c are then the points of
-  /// the depth: c = upper * axis.
+  /// Grows from four points c of C that enclose the origin; `a` has the corresponding points of A.
+  /// Returns true if the bounds have met; both hold in any case. The result's a and c are then the
+  /// points at the depth: c = upper * axis.
   bool run(const Vec3<double>* c, const Vec3<double>* a) {
     if (!start(c, a)) return false;
     while (found_.supports < most_supports) {
       const int nearest = pop();
-      // The heap does not contain faces further away than the upper bound of the depth: none of
+      // The heap contains no faces further away than the upper bound of the depth, since none of
       // these can be the nearest.
       const bool is_none = nearest < 0 || faces_[nearest].d >= -found_.lower;
       found_.upper = is_none ? found_.lower : -faces_[nearest].d;
@@ -77,7 +77,7 @@ class ExpandingPolytope {
     Vec3<double> n;
     double d;
     int corner[3];
-    int beside[3];  ///< neighbour at the edge from corner k to the next: 4 * its face + its edge
+    int beside[3];  ///< at the edge after corner k: 4 * neighbour's face + its edge
     bool is_there;
   };
   struct Heaped {
@@ -169,8 +169,8 @@ class ExpandingPolytope {
     return -1;
   }
 
-  /// Replaces the connected faces around `first` that have the newest point on their outer side by
-  /// a fan to this point.
+  /// Removes the connected faces around `first` that have the newest point on their outer side.
+  /// Fills the hole with a fan of faces to this point.
   bool grow(int first) {
     const Vec3<double>& w = y_[count_];
     int open = 0, edges = 0;

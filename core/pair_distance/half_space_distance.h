@@ -9,7 +9,7 @@ namespace minkray {
 
 /// Returns the signed distance of a half-space A and a shape B at a rigid pose. A consists of all
 /// points x with normal . x <= offset, where the normal has unit length. The distance is negative
-/// if a part of B is below the plane; a move of B along the normal by this depth separates the two.
+/// if a part of B is below the plane; moving B along the normal by this depth separates the two.
 /// Unknown (is_unknown()) if lengths are not finite.
 SignedDistance distance_to_half_space(const Vec3<double>& normal, double offset,
                                       const ContactShape& shape, const Affine<double>& pose);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Distance of two curved cores to second order. Each point of GJK's simplex lies on a feature of
 // the surface and slides along the feature when the direction d turns. S is the weighted sum of the
-// features' derivatives. To second order, the closest point of the sliding features is that of
-// fixed points in the metric H = I + S |d| / gap, which GJK's simplex code finds. With S = 0 the
-// method is GJK; with one feature it is Newton's method.
+// features' derivatives. To second order, sliding points have the same closest point as fixed
+// points in the metric H = I + S |d| / gap, for which the code of GJK's simplex can be used. With S
+// = 0 the method is GJK; with one feature it is Newton's method.
 #pragma once
 
 #include <algorithm>
@@ -33,9 +33,9 @@ class SlidingFeatures {
   /// step, which pairs of a face and a rim need. Returns true if a result was found.
   bool run(const Vec3<double>& d, double damping);
 
-  /// Finds the direction near d with the largest gap of overlapping cores, to about 1e-7: a local
-  /// optimum, which may be the direction of the depth. Only the gaps found are proven. Returns true
-  /// if found.
+  /// For overlapping cores: finds a direction near d where the gap has a local maximum, to about
+  /// 1e-7. This may be the direction of the depth. Only the gaps found are proven. Returns true if
+  /// a direction was found.
   bool settle(const Vec3<double>& d) {
     is_direction_asked_ = true;
     run(d, first_damping);
@@ -43,11 +43,11 @@ class SlidingFeatures {
   }
   const Vec3<double>& direction() const { return direction_; }
 
-  /// Finds the same direction up to rounding, by Newton's method from a direction that is off by
-  /// less than `turn`. The optimum may be a peak on one feature, on the crease of two, or at a
-  /// corner of more. Returns true if found.
+  /// Finds the direction of settle() up to rounding, by Newton's method from a direction that is
+  /// off by less than `turn`. The maximum may be a peak on one feature, on the crease of two, or at
+  /// a corner of more. Returns true if it was found.
   bool sharpen(const Vec3<double>& d, double turn);
-  /// Points found by sharpen(): a point of A, and the vector from it to a point of B.
+  /// Points found by sharpen(): a point of A, and the vector from this point to a point of B.
   const Vec3<double>& sharp_a() const { return sharp_a_; }
   const Vec3<double>& sharp_c() const { return sharp_c_; }
 
@@ -156,8 +156,8 @@ class SlidingFeatures {
   double weight_[4];
 };
 
-/// True if C's middle and three points around n, in whose direction C ends at -depth, form a
-/// tetrahedron that contains the origin; `common` is their weighted sum.
+/// True if the middle of C and three points of C around the direction n form a tetrahedron that
+/// contains the origin; `common` is their weighted sum. The least n.c over C is -depth.
 template <CoreKind A, CoreKind B>
 bool SlidingFeatures<A, B>::is_inside(const Vec3<double>& n, double depth, const Vec3<double>* z,
                                       Vec3<double>& common) {
@@ -285,7 +285,7 @@ bool SlidingFeatures<A, B>::step_to_peak(const Vec3<double>& n, Vec3<double>& ne
   } else if (count_ > 2) {
     const Vec3<double> u = on[1].c - on[0].c, v = on[2].c - on[0].c, plane = u.cross(v);
     const double squared = plane.squaredNorm();
-    constexpr double thinnest = 1e-3;  // of a right angle
+    constexpr double thinnest = 1e-3;  // sine of the least angle between u and v
     if (!(squared > thinnest * thinnest * u.squaredNorm() * v.squaredNorm())) return false;
     next = plane / std::sqrt(squared);
     if (next.dot(n) < 0) next = -next;

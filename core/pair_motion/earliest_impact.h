@@ -7,8 +7,9 @@
 namespace minkray {
 
 struct EarliestImpact {
-  /// `t_lo` is before the contacts with all bodies. All other members are the result for one body:
-  /// the body touched first; if there is no contact, a body whose result is undecided or a miss.
+  /// `t_lo` is before the contacts with all bodies. All other members are the result for a single
+  /// body: the body touched first or, if there is no contact, a body whose result is undecided or a
+  /// miss.
   Impact impact;
   std::size_t body = none;
   static constexpr std::size_t none = ~std::size_t{0};

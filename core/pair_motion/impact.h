@@ -41,13 +41,13 @@ constexpr std::string_view name_of(ImpactStatus status) {
 
 struct Impact {
   ImpactStatus status = ImpactStatus::undecided;
-  double t_lo = 0;  ///< no contact before t_lo, except at 0 if the bodies touch and part there
+  double t_lo = 0;  ///< no contact before t_lo, except at time 0 if the bodies then part
   double t_hi = std::numeric_limits<double>::infinity();  ///< at t_hi the bodies touch or overlap
   /// Nearest points and normal from A to B at t_lo (for a miss: at t_max), in the world.
   Vec3<double> point_a = Vec3<double>::Zero();
   Vec3<double> point_b = Vec3<double>::Zero();
   Vec3<double> normal = Vec3<double>::Zero();
-  double distance = 0;  ///< of the bodies at t_lo; if unknown, infinite, and the points are not set
+  double distance = 0;  ///< distance at t_lo; infinite if unknown: points are not set
   int steps = 0;        ///< number of distance queries
 };
 

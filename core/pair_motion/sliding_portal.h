@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Time of impact of curved cores to second order, by sequential quadratic programming. The
-// supporting planes with normal n, n.u = -1 (u along the motion), give a lower bound of the time.
-// This bound is a concave function of n, and its maximum is the time: the minimum of one function
-// per feature (sliding_features.h).
+// Time of impact of curved cores to second order, by sequential quadratic programming. Let u be the
+// direction of motion. The supporting plane with the normal n, scaled so that n.u = -1, gives a
+// lower bound of the time. This bound is the minimum of one function of n per feature
+// (sliding_features.h). The bound is concave in n, and its maximum is the time of impact.
 #pragma once
 
 #include "core/pair_motion/swept_query.h"
 
 namespace minkray {
 
-/// At n + m, feature i gives t_i + q_i.m - m S m / 2, where q_i is the feature's projection and S
-/// the features' curvature. The dual problem gives the m that maximises the minimum of these
-/// functions: a quadratic program of at most four weights, solved by trying all subsets.
+/// For the normal n + m, feature i gives the bound t_i + q_i.m - m S m / 2, where q_i is the
+/// feature's projection and S the curvature of all features. The dual problem gives the m that
+/// maximises the minimum of these bounds. The dual is a quadratic program with at most four
+/// weights, solved by trying all subsets.
 template <CoreKind A, CoreKind B>
 class SlidingPortal {
  public:
@@ -32,7 +33,7 @@ class SlidingPortal {
   /// the query.
   bool run(const Vec3<double>& n) {
     Vec3<double> nd = n / -n.dot(query_.along);
-    double damping = 0.1;  // relative to the size; pairs of a face and a rim need it
+    double damping = 0.1;  // relative to the size; needed for pairs of a face and a rim
     for (int step = 0; step < most_turns; ++step, damping = step < 7 ? damping * 0.1 : 0) {
       const SweptPoint w = query_.support(nd);
       if (query_.judge(nd, w)) return true;
@@ -87,8 +88,8 @@ class SlidingPortal {
     S.add(-k / (length * length), nd);
   }
 
-  /// True if nd is the normal of a flat end, above which the support point jumps. Then only the
-  /// portal can continue.
+  /// True if nd is the normal of a flat end, where the support point jumps. Only the portal can
+  /// then continue.
   bool is_along_an_end(const Vec3<double>& nd) const {
     constexpr double flat = 1e-6;
     const auto is_along = [](const ShapeCore& core, const Vec3<double>& d) {

@@ -53,7 +53,7 @@ class SweptPortal {
         query_.end(SweptStatus::miss, d);
         return false;
       }
-      if (reach > 0) return false;  // too near to decide
+      if (reach > 0) return false;  // too close to decide
       if (++count == 3) {
         const double c01 = side(0, 1), c12 = side(1, 2), c20 = side(2, 0), area = c01 + c12 + c20;
         const double sign = area < 0 ? -1 : 1;

@@ -130,7 +130,7 @@ struct SweptQuery {
           std::abs(area) > sliver * size * reach))
       return false;
     const double of_r = at_r / area, of_s = at_s / area, of_t = at_t / area;
-    // The weights of a thin triangle give a point slightly off the origin, which is corrected along
+    // The weights of a thin triangle give a point slightly off the origin. This is corrected along
     // the triangle's plane. Rounding also moves the points sideways, which changes the height in
     // proportion to the plane's steepness.
     const double p1 = s.p - r.p, q1 = s.q - r.q, h1 = s.h - r.h, p2 = t.p - r.p, q2 = t.q - r.q,

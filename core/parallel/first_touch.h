@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Arrays of millions of entries that several threads fill. No entry is written before, so pages are
-// allocated when a thread fills them: in parallel, and in memory near that thread. Large arrays use
-// large pages if the system has them, since random reads spend half their time on finding the page.
+// Arrays of millions of entries that several threads fill. Entries are not initialised, so each
+// page is allocated when a thread fills it: in parallel, and in memory near that thread. Large
+// arrays use large pages if the system has them. Otherwise random reads spend half their time on
+// address translation.
 #pragma once
 
 #include <memory>

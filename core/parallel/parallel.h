@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Loops on several threads. Uses oneTBB, which only parallel.cpp includes, or under ThreadSanitizer
-// the standard library's threads (parallel_std.cpp).
+// Loops on several threads. Uses oneTBB, which only parallel.cpp includes. Under ThreadSanitizer,
+// uses the threads of the standard library instead (parallel_std.cpp).
 #pragma once
 
 #include <cstddef>

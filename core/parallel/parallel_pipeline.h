@@ -13,10 +13,10 @@ void pipeline_of_any(std::size_t most, const std::function<std::shared_ptr<void>
                      const std::function<void(void*)>& work,
                      const std::function<void(void*)>& write);
 
-/// read() returns the next item as a shared_ptr<Item>, or null at the end. work(Item&) is called
-/// for several items in parallel, write(Item&) for one item at a time, in the order of reading. At
-/// most `most` items are in the pipeline at a time. An exception ends the pipeline and reaches the
-/// caller.
+/// read() returns the next item as a shared_ptr<Item>, or null at the end. work(Item&) runs for
+/// several items in parallel; write(Item&) runs for one item at a time, in the order of reading.
+/// The pipeline holds at most `most` items at a time. An exception ends the pipeline and reaches
+/// the caller.
 template <class Item, class Read, class Work, class Write>
 void parallel_pipeline(std::size_t most, const Read& read, const Work& work, const Write& write) {
   pipeline_of_any(

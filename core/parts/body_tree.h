@@ -20,7 +20,7 @@ class BodyTree {
   /// Radius of a ball around the middle that contains the body.
   double radius() const { return radius_; }
 
-  /// A box: that of the body, or a child of a node. Encodes the node's number and the child's
+  /// A box: the body's own, or that of a node's child. Encodes the node's number and the child's
   /// index.
   using Box = std::uint32_t;
   static constexpr Box whole = ~Box{0};
@@ -43,12 +43,12 @@ class BodyTree {
     return {mesh()->corner(part, 0) - middle_, mesh()->corner(part, 1) - middle_,
             mesh()->corner(part, 2) - middle_};
   }
-  /// Largest n . p over the body's points p, relative to its middle and in its frame. For a mesh:
-  /// over the points of its box.
+  /// Largest n . p over the body's points p, relative to the body's middle and in the body's frame.
+  /// For a mesh: over the points of its box.
   double reach_along(const Vec3<double>& n) const;
 
  private:
-  /// Number of a node, or number of a leaf with the leaf bit.
+  /// Number of a node, or number of a leaf with the leaf bit set.
   std::uint32_t inside(Box box) const {
     return box == whole ? 0 : mesh()->bvh().nodes[box >> 3].children[box & 7];
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A part of a body as a shape: a triangle of a mesh, or the shape itself.
+// Makes a shape of a part of a body: a triangle of a mesh, or the shape itself.
 #pragma once
 
 #include <optional>

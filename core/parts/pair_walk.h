@@ -25,8 +25,8 @@ class PairWalk {
   PairWalk(const BodyTree& a, const BodyTree& b, const Sight& sight)
       : a_(a), b_(b), sight_(sight) {}
 
-  /// Sets a unit vector in A's frame that points from A to B. Perpendicular planes are likely to
-  /// separate many of the following pairs.
+  /// Sets a unit vector in A's frame that points from A to B. Planes perpendicular to this vector
+  /// are likely to separate many of the following pairs.
   void set_direction(const Vec3<double>& n) {
     has_direction_ = true;
     n_ = n;
@@ -165,7 +165,7 @@ double PairWalk::run_leaves(const Key& key, const Limit& limit, const VisitLeave
     open_.pop_back();
     if (pair.key > limit()) return std::min(left_out_, pair.key);
     MiddleBox box_a = a_.bounds(pair.a), box_b = b_.bounds(pair.b);
-    if (has_direction_) {  // perhaps set after the pair was queued
+    if (has_direction_) {  // the direction may be newer than the pair
       const double again = key(gap_along_direction(box_a, box_b) - sight_.rounding, box_a, box_b);
       if (again > limit()) {
         leave_out(again);

@@ -9,8 +9,8 @@
 
 namespace minkray {
 
-/// Uses only the two parts that are nearest or that cross. Returns no points if one body is inside
-/// the other and their surfaces do not cross.
+/// Returns contact points of the two parts that are nearest or that cross. Returns no points if one
+/// body is inside the other and their surfaces do not cross.
 ContactManifold contact_manifold(const PartsBody& a, const Affine<double>& pose_a,
                                  const PartsBody& b, const Affine<double>& pose_b);
 
@@ -18,7 +18,8 @@ ContactManifold contact_manifold(const PartsBody& a, const Affine<double>& pose_
 /// and marked as a ridge.
 PairDerivative derivative_of(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
                              const Affine<double>& pose_b);
-/// Same as the function for shapes. A mesh is on a ridge if several vertices are lowest.
+/// Same as derivative_at_half_space() for shapes. A mesh is on a ridge if several vertices are
+/// lowest.
 PairDerivative derivative_at_half_space(const Vec3<double>& origin, const PartsBody& b,
                                         const Affine<double>& pose_b, const SignedDistance& found,
                                         PairDerivativeError* error = nullptr,

@@ -13,8 +13,9 @@ namespace minkray {
 /// is overlapping, and value and both bounds are 0, since no depth is computed. Only closed meshes
 /// can contain bodies. If surfaces cross, the points lie on two crossing parts. If one body is
 /// inside the other, both points are the same point of the inner body. The normal is that of a
-/// crossed face. The poses must be rigid. Tests the parts `first` first: the parts of the last
-/// query on two bodies that have moved little save much of the search. Any others only cost time.
+/// crossed face. The poses must be rigid. Tests the pair of parts `first` first. If the bodies have
+/// moved little, the parts of the last query save much of the search; any other parts only cost
+/// time.
 SignedDistance signed_distance(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
                                const Affine<double>& pose_b,
                                const SignedDistanceOptions& options = {}, PartPair* parts = nullptr,

@@ -11,8 +11,8 @@ namespace minkray {
 
 using TriangleCorners = std::array<Vec3<double>, 3>;
 
-/// `lower` is the gap between planes perpendicular to the normal, `upper` the distance of the
-/// points, both without a margin for rounding. `lower` is 0 or less if the triangles cross. This
+/// Bounds without a margin for rounding: `lower` is the gap between planes perpendicular to the
+/// normal, `upper` the distance of the points. `lower` is 0 or less if the triangles cross. This
 /// may also happen for slivers, for which the closed form has too few digits.
 struct TriangleGap {
   double lower = -std::numeric_limits<double>::infinity();
