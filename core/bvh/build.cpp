@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The builder: from the root down, each node at once with all of its children (Wald, Benthin and
-// Boulos, "Getting Rid of Packets", 2008): its range is split in two, the heaviest range again,
-// until all places are taken. Large subtrees are built at once on several threads, each into nodes
-// of its own, which are put together in the order of the tree: the result does not depend on who
-// came first.
+// Builds a BVH from the root down (Wald, Benthin and Boulos, "Getting Rid of Packets", 2008). A
+// node's range is split in two, then the heaviest of its parts, until the node is full. Large
+// subtrees are built in parallel, each with its own array of nodes. The arrays are joined in the
+// order of the tree, so the result does not depend on the order of threads.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -16,15 +15,16 @@
 namespace minkray {
 namespace {
 
-/// Ranges at least as large are worth a second thread.
+/// Least size of ranges for which a second thread saves time.
 constexpr std::size_t parallel_size = 4096;
 
-/// The ranges of a node's children, into which its own is split.
+/// The ranges of a node's children; together they are the node's range.
 struct ChildRanges {
   std::array<BuildRange, bvh_width> ranges;
   std::size_t count = 0;
 
-  /// Finds the range of the greatest weight among those that may be chosen; count if none may.
+  /// Returns the index of the range with the greatest weight, of those for which may_be(range) is
+  /// true; `count` if there is none.
   template <class MayBe, class Weight>
   std::size_t heaviest(const MayBe& may_be, const Weight& weight) const {
     std::size_t best = count;
@@ -40,7 +40,7 @@ struct ChildRanges {
 struct Subtree {
   FirstTouchVector<BvhNode> nodes;
   std::vector<std::pair<int, std::unique_ptr<Subtree>>>
-      below;  ///< with the child's place in the root
+      below;  ///< with the index of the child in the root
   BuildBox box;
 
   std::size_t node_count() const {
@@ -50,7 +50,7 @@ struct Subtree {
   }
 };
 
-/// Children that are no nodes: boxes, or ranges of boxes that are leaves together.
+/// Contents of leaves: a single box, or a range of boxes.
 enum class Leaves : unsigned char { boxes, ranges };
 
 template <class Splitter, Leaves leaves = Leaves::boxes>
@@ -85,7 +85,7 @@ class Builder {
   }
 
  private:
-  /// Appends the nodes of a range, the root first, and answers its box.
+  /// Appends the nodes of a range, the root first. Returns the range's box.
   BuildBox append(const BuildRange& range, FirstTouchVector<BvhNode>& nodes) const {
     const std::size_t at = nodes.size();
     nodes.push_back(empty_node());
@@ -114,7 +114,7 @@ class Builder {
       for (std::size_t i = of.begin; i < of.end; ++i)
         children.ranges[children.count++] = {i, i + 1, of.depth + 1, {}};
     };
-    if (range.count() <= width) {  // with leaves of ranges: there is only one
+    if (range.count() <= width) {  // for leaves of ranges, the single child is a leaf
       if constexpr (leaves == Leaves::boxes)
         add_all(range);
       else
@@ -123,7 +123,7 @@ class Builder {
     }
     children.ranges[children.count++] = range;
     while (children.count < width) {
-      // Ranges that fill no more than a node stay together.
+      // Ranges that fit in one node are not split.
       const std::size_t i = children.heaviest([](const BuildRange& r) { return r.count() > width; },
                                               Splitter::weight);
       if (i == children.count) break;
@@ -132,7 +132,8 @@ class Builder {
       children.ranges[children.count++] = halves.right;
     }
     if constexpr (leaves == Leaves::ranges) return children;
-    // Adopts the contents of nodes that fit here instead of making them nodes.
+    // Moves the boxes of small child nodes into this node if there is room, which saves the child
+    // node.
     for (;;) {
       const std::size_t free = width - children.count;
       const std::size_t i = children.heaviest(
@@ -145,7 +146,8 @@ class Builder {
     }
   }
 
-  /// A leaf of a range is known by where it begins.
+  /// Returns a leaf child. A leaf with a range of boxes is identified by the first primitive of the
+  /// range.
   std::uint32_t leaf_of(std::size_t primitive) const {
     if constexpr (leaves == Leaves::ranges)
       return BvhNode::leaf | static_cast<std::uint32_t>(primitive);
@@ -170,7 +172,7 @@ class Builder {
   const Splitter& splitter_;
 };
 
-/// Puts the nodes of a subtree to `begin` and behind, and frees the subtree.
+/// Moves the nodes of a subtree to index `begin` and following ones, and frees the subtree.
 void put(std::unique_ptr<Subtree> subtree, FirstTouchVector<BvhNode>& nodes, std::size_t begin) {
   for (std::size_t i = 0; i < subtree->nodes.size(); ++i) {
     BvhNode& node = nodes[begin + i] = subtree->nodes[i];
@@ -209,7 +211,7 @@ FirstTouchVector<Primitive> primitives_of(std::span<const Bounds<float>> boxes) 
   return primitives;
 }
 
-/// Leaves are numbered in the order of their boxes.
+/// Numbers the leaves in the order of their boxes.
 void number_leaves(BvhOfLeaves& leaves) {
   FirstTouchVector<std::uint32_t> number;
   number.resize(leaves.boxes.size());
@@ -234,7 +236,7 @@ Bvh bvh_of(FirstTouchVector<Primitive> primitives, BvhBuild build) {
   Bvh bvh;
   if (primitives.empty()) return bvh;
   std::unique_ptr<Subtree> whole = built(primitives, build);
-  // Before the nodes are there twice: of millions of primitives, memory is at its highest here.
+  // Frees the primitives before the nodes are copied: memory use is at its highest here.
   primitives = {};
   bvh.nodes.resize(whole->node_count());
   put(std::move(whole), bvh.nodes, 0);

@@ -11,18 +11,18 @@
 namespace minkray {
 namespace {
 
-/// Bits per pass of the sort: few enough that their counts stay in the first cache.
+/// Bits per pass of the sort. With so few bits, the counts stay in the first-level cache.
 constexpr int bits_a_pass = 10;
 constexpr std::size_t buckets = std::size_t{1} << bits_a_pass;
 
-/// Each range's keys are counted and moved by one thread. Ranges are long enough that their counts
-/// are few compared with the keys.
+/// Number of keys in a range. One thread counts and moves the keys of a range. Ranges have many
+/// more keys than counts.
 constexpr std::size_t range_size = std::size_t{1} << 16;
 
 using Counts = std::array<std::size_t, buckets>;
 
-/// Counts of keys become where the first key of each bucket and range is to be: bucket by bucket,
-/// and range by range within a bucket.
+/// Replaces each count of keys by the position of the first of these keys in the sorted array.
+/// Buckets are in order, and ranges are in order within a bucket.
 void make_starts(std::vector<Counts>& of_ranges) {
   std::size_t start = 0;
   for (std::size_t bucket = 0; bucket < buckets; ++bucket)
@@ -39,7 +39,7 @@ void sort_by_place(FirstTouchVector<KeyedPlace>& keys, int bits) {
     const auto bucket_of = [&](KeyedPlace key) {
       return static_cast<std::size_t>(key >> shift) & (buckets - 1);
     };
-    // on_key(counts, key) for all keys of a range.
+    // Calls on_key(counts, key) for all keys, with the counts of the key's range.
     const auto for_ranges = [&](const auto& on_key) {
       parallel_for(of_ranges.size(), 1, [&](std::size_t first, std::size_t last) {
         for (std::size_t range = first; range < last; ++range) {

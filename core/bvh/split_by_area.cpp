@@ -11,12 +11,13 @@ namespace minkray {
 namespace {
 
 constexpr int most_bins = 16;
-/// Few primitives need few bins: sweeping over them would take longer than filling them.
+/// Ranges of few primitives use few bins, since sweeping over many bins would take longer than
+/// filling them.
 constexpr int few_bins = 8;
 constexpr std::size_t few_primitives = 64;
 
-/// Size of ranges up to which leaves are filled: larger ranges lose little by a leaf that is not
-/// full.
+/// Largest size of ranges that are split so that leaves are full. Larger ranges lose little by
+/// leaves that are not full.
 constexpr std::size_t most_of_full_leaves = 256;
 
 struct Bins {
@@ -40,10 +41,10 @@ class Binning {
         scale_(Float4(static_cast<float>(bins)) / (middles.upper - middles.lower)),
         last_(static_cast<float>(bins - 1)) {}
 
-  /// Whole numbers in [0, bins), but for what comes behind the point.
+  /// Returns the bin along each axis as a number in [0, bins), not rounded down.
   Float4 operator()(const Primitive& primitive) const {
     const Float4 at = (primitive.middle() - lower_) * scale_;
-    // NaN (no extent at all) must fall through to the first bin.
+    // NaN (if the middles have no extent) must select the first bin.
     return min(select(at > Float4(0.0f), at, Float4(0.0f)), last_);
   }
 
@@ -121,7 +122,7 @@ BuildHalves AreaSplitter::split(const BuildRange& range) const {
     const Split best = best_split(bins, bin_count, range.count());
     halves.axis = best.axis;
 
-    // In place, from both ends; what goes to a side is added to its extent on the way.
+    // Partitions in place, from both ends. Adds each primitive to the extent of its side.
     const auto first_right = static_cast<float>(best.bin);
     const auto goes_left = [&](const Primitive& primitive) {
       return binning(primitive).lane(best.axis) < first_right;
@@ -137,7 +138,8 @@ BuildHalves AreaSplitter::split(const BuildRange& range) const {
       }
     }
   }
-  // Nothing to choose between (all in one place), or too deep: halves.
+  // If all middles are at one place, or if the range is too deep, splits into halves of equal
+  // count.
   if (left == range.begin || left == range.end) {
     left = range.begin + range.count() / 2;
     halves.left.extent = extent_of(primitives_, range.begin, left);

@@ -10,7 +10,7 @@ namespace minkray {
 namespace {
 
 constexpr int bits_an_axis = 10;
-/// The bits of x with two zeros before each.
+/// Spreads the bits of x: puts two zeros before each bit.
 std::uint32_t spread(std::uint32_t x) {
   x = (x | (x << 16)) & 0x030000ffu;
   x = (x | (x << 8)) & 0x0300f00fu;
@@ -29,7 +29,7 @@ CurveSplitter::CurveSplitter(FirstTouchVector<Primitive>& primitives) {
   const Float4 scale = Float4(cells) / (middles.upper - middles.lower);
   const auto place = [&](const Primitive& primitive) {
     const Float4 at = (primitive.middle() - middles.lower) * scale;
-    // NaN (no extent at all) must fall through to the first cell.
+    // NaN (if the middles have no extent) must select the first cell.
     const Float4 cell = min(select(at > Float4(0.0f), at, Float4(0.0f)), Float4(cells - 1));
     const auto bits = [&](int axis) { return spread(static_cast<std::uint32_t>(cell.lane(axis))); };
     return bits(0) << 2 | bits(1) << 1 | bits(2);
@@ -58,7 +58,8 @@ BuildHalves CurveSplitter::split(const BuildRange& range) const {
   const std::uint32_t first = codes_[range.begin], last = codes_[range.end - 1];
   std::size_t middle = range.begin + range.count() / 2;
   if (first != last && range.depth < free_split_depth) {
-    // All before have this bit clear, all behind have it set, and agree in those above.
+    // All codes of the range agree in the bits above this one. The bit is clear in the first half
+    // and set in the second.
     const std::uint32_t bit = std::bit_floor(first ^ last);
     const auto begin = codes_.begin() + static_cast<std::ptrdiff_t>(range.begin);
     const auto end = codes_.begin() + static_cast<std::ptrdiff_t>(range.end);

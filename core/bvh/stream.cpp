@@ -8,7 +8,7 @@ std::uint64_t walk_stream(const Bvh& bvh, std::span<SlabRay> rays, const PairVis
   if (bvh.nodes.empty() || rays.empty()) return 0;
   if (set == WalkSet::avx2)
     return walk_stream_avx2(bvh.nodes.data(), rays.data(), rays.size(), visitor);
-  // Steps that wait for each other gain nothing from taking turns without lanes for eight boxes.
+  // Without lanes for eight boxes, taking turns saves no time.
   std::uint64_t visited = 0;
   for (std::uint32_t ray = 0; ray < rays.size(); ++ray) {
     SlabRay& slabs = rays[ray];

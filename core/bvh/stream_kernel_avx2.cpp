@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Rays take turns, a node each, and no step has a branch that depends on what was met: boxes are
-// compressed into queues, and sorted by a network. After Fuetterer et al., "Efficient Ray Tracing
-// Kernels for Modern CPU Architectures", 2015. Everything here has internal linkage or the type of
-// the lanes in its name: see core/math/wide.h.
+// Rays take turns, one node each (Fuetterer et al., "Efficient Ray Tracing Kernels for Modern CPU
+// Architectures", 2015). No step branches on the boxes that the ray meets: boxes are compressed
+// into queues and sorted by a network. All functions have internal linkage or the lanes' type in
+// their name (core/math/wide.h explains why).
 #include "core/bvh/slab_test.h"
 #include "core/bvh/sorted_lanes.h"
 #include "core/bvh/stream.h"
@@ -16,15 +16,16 @@ using Lanes = Wide<float, 8, IsaAvx2>;
 /// Number of rays that take turns (docs/decisions/many-rays.md).
 constexpr std::uint32_t turns = 32;
 
-/// Entries that are always live, below each stack's first.
+/// Entries below each stack that are never dropped, so that drop_distant stops there.
 constexpr int sentinels = 8;
 constexpr int stack_size = sentinels + bvh_max_depth * (bvh_width - 1) + 1 + bvh_width;
 
-/// Pairs are queued until there are at least this many; each of the steps abreast adds up to
-/// eight.
+/// Pairs are queued until there are at least this many. Each of the parallel steps adds up to eight
+/// pairs.
 constexpr std::uint32_t pairs_at_once = 8, queue_size = 2 * most_pairs_at_once;
 
-/// The nodes that a ray has yet to visit, the nearest on top, and where it enters their boxes.
+/// The nodes that a ray has yet to visit, with the parameters at which it enters their boxes. The
+/// nearest node is on top.
 struct Turn {
   std::uint32_t ray;
   int top;
@@ -43,7 +44,7 @@ void begin(Turn& turn, std::uint32_t ray) {
   turn.node[sentinels] = 0;
 }
 
-/// Takes what lies beyond t_max from the top. False if nothing is left.
+/// Drops nodes beyond t_max from the top of the stack. Returns false if no node is left.
 bool drop_distant(Turn& turn, float t_max) {
   const __m256 limit = _mm256_set1_ps(t_max);
   for (;;) {
@@ -63,8 +64,8 @@ bool drop_distant(Turn& turn, float t_max) {
 
 namespace {
 
-/// Number of rays stepped at once, phase by phase, so that their chains of operations run side by
-/// side: the processor looks ahead no further than about one step (docs/decisions/many-rays.md).
+/// Number of rays that take a step together, phase by phase, so that the processor overlaps their
+/// operations. Without this, it would overlap only about one step (docs/decisions/many-rays.md).
 constexpr std::uint32_t abreast = 4;
 
 /// State of a step between its phases.
@@ -103,7 +104,7 @@ template <std::uint32_t count>
       const __m256 out = _mm256_mul_ps(
           _mm256_sub_ps(_mm256_load_ps(far_plane), _mm256_set1_ps(ray.origin_far[axis])),
           _mm256_set1_ps(ray.inverse_far[axis]));
-      // As std::max and std::min: NaN falls through.
+      // Same as std::max and std::min: the order of operands drops NaN.
       at.enter[k] = _mm256_max_ps(in, at.enter[k]);
       at.leave[k] = _mm256_min_ps(out, at.leave[k]);
     }
@@ -121,8 +122,9 @@ template <std::uint32_t count>
     at.boxes[k] = met & leaves & ~absent;
     at.inner[k] = met & ~leaves;
   }
-  // Nodes, the furthest first: where they are entered, cut off to make room for the lane's number,
-  // is not negative, and so in order as a whole number. Others come last.
+  // Makes keys that sort nodes, the furthest first. The low bits of the entry parameter are
+  // replaced by the lane's number. Parameters are not negative, so their bits compare like
+  // integers. All other lanes come last.
 #pragma GCC unroll 8
   for (std::uint32_t k = 0; k < count; ++k) {
     const __m256i is_other = _mm256_cmpeq_epi32(
@@ -133,7 +135,7 @@ template <std::uint32_t count>
                         lane_numbers),
         is_other);
   }
-  // Boxes to the queue.
+  // Appends the boxes to the queue.
 #pragma GCC unroll 8
   for (std::uint32_t k = 0; k < count; ++k) {
     store(pair_boxes + pairs,
@@ -164,18 +166,18 @@ template <std::uint32_t count>
 
 namespace {
 
-/// detail::float_above, for four; `nearest` is x in float.
+/// Same as detail::float_above, for four numbers.
 [[gnu::always_inline]] inline __m128 floats_above(__m256d x) {
   const __m128 nearest = _mm256_cvtpd_ps(x);
   const __m256d is_below = _mm256_cmp_pd(_mm256_cvtps_pd(nearest), x, _CMP_LT_OQ);
-  // -1 where it is, else 0.
+  // -1 if `nearest` is below x, else 0.
   const __m128i step = _mm256_castsi256_si128(_mm256_permutevar8x32_epi32(
       _mm256_castpd_si256(is_below), _mm256_setr_epi32(0, 2, 4, 6, 0, 2, 4, 6)));
-  // A zero counts as positive.
+  // Zero counts as positive.
   const __m128i bits =
       _mm_castps_si128(_mm_andnot_ps(_mm_cmpeq_ps(nearest, _mm_setzero_ps()), nearest));
   const __m128i is_negative = _mm_srai_epi32(bits, 31);
-  // step or -step: (step ^ n) - n, with the other sign.
+  // Subtracts `step` from positive bits, and adds it to negative ones.
   return _mm_castsi128_ps(
       _mm_sub_epi32(bits, _mm_sub_epi32(_mm_xor_si128(step, is_negative), is_negative)));
 }
@@ -214,7 +216,7 @@ void make_slabs_avx2(const char* rays, std::size_t stride, std::size_t count, Sl
     const __m128 origin_far = _mm_xor_ps(
         _mm_xor_ps(floats_above(_mm256_xor_pd(turned, sign)), _mm_set1_ps(-0.0f)), turn_float);
     const __m128 inverse = _mm256_cvtpd_ps(_mm256_div_pd(_mm256_set1_pd(1), d));
-    // Too large for float, but not without end.
+    // Inverses too large for float remain finite.
     const __m128 absolute = _mm_andnot_ps(_mm_set1_ps(-0.0f), inverse);
     const __m128 bounded =
         _mm_or_ps(_mm_min_ps(absolute, _mm_set1_ps(std::numeric_limits<float>::max())),
@@ -249,7 +251,8 @@ std::uint64_t walk_stream_avx2(const BvhNode* nodes, SlabRay* rays, std::size_t 
     begin(all[opened], next++);
     open[opened] = opened;
   }
-  // Readies the k-th step of the turn at open[i]; false if that turn has no more rays.
+  // Prepares step k with the next node of the turn at open[i]. Returns false if the turn has no
+  // more rays.
   const auto ready = [&](auto& steps, std::uint32_t k, std::uint32_t i) {
     Turn& turn = all[open[i]];
     while (!drop_distant(turn, rays[turn.ray].numbers.t_max)) {
@@ -299,7 +302,7 @@ std::uint64_t walk_stream_avx2(const BvhNode* nodes, SlabRay* rays, std::size_t 
 #else
 namespace minkray {
 
-/// Never called on other machines.
+/// Never called on machines without AVX2.
 void make_slabs_avx2(const char*, std::size_t, std::size_t, SlabRay*) {}
 std::uint64_t walk_stream_avx2(const BvhNode*, SlabRay*, std::size_t, const PairVisitor&) {
   return 0;

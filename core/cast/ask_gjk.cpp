@@ -12,7 +12,7 @@ CastResult<double> ask_gjk(Stage stage, const StageQuestion& question) {
 
 CastResult<double> ask_finer(const StageQuestion& question) {
   using Finer = long double;
-  // Mapped by the identity, which makes r a unit vector to the wider type's rounding.
+  // Mapping by the identity normalises r in the wider type.
   const RayNearBall<Finer> near =
       in_precision<Finer>(question.near).mapped(Mat3<Finer>::Identity());
   return in_precision<double>(gjk_ray_cast(question.shape.inner_shape(), near,

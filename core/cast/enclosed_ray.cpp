@@ -11,8 +11,8 @@ namespace {
 
 using Vec2 = Vec<double, 2>;
 
-/// Angles between the normal and the first directions: the root of a machine epsilon, and a larger
-/// one for corners that would be too close together.
+/// Angles between the normal and the first directions. The first is the square root of the machine
+/// epsilon; the second is for corners that would be too close together with the first.
 constexpr std::array tilts = {0x1p-26, 0x1p-20};
 /// Limits of support calls for one tilt and for refining a portal.
 constexpr int most_corners = 7, most_refinements = 32;
@@ -33,7 +33,7 @@ double cross(const Vec2& a, const Vec2& b) {
 /// plane perpendicular to the ray.
 class Portal {
  public:
-  /// Corners are known to `rounding`.
+  /// `rounding` is the error bound of corners.
   explicit Portal(double rounding) : rounding_(rounding) {}
 
   /// Least distance of the ray from the triangle's sides, so that rounding cannot move it outside.
@@ -41,8 +41,8 @@ class Portal {
 
   void add(const Corner& corner) { corners_[size_++] = corner; }
 
-  /// Returns the direction in which the next corner must lie beyond the ray, and drops a corner
-  /// that is on the other side. Zero if the ray passes between three corners.
+  /// Returns the direction in which the next corner must lie beyond the ray. Drops a corner on the
+  /// opposite side. Returns zero if the ray passes between three corners.
   Vec2 missing_side() {
     if (size_ == 2 && corners_[0].beside == corners_[1].beside) size_ = 1;
     if (size_ == 1) return -corners_[0].beside;
@@ -73,12 +73,13 @@ class Portal {
   }
   double along_ray() const { return corners_[0].along - rise().dot(corners_[0].beside); }
 
-  /// Returns an upper bound of where the ray crosses the triangle. Rounding of the corners moves
-  /// the plane; along the ray, it moves further the more the plane is slanted.
+  /// Returns an upper bound of the parameter at which the ray crosses the triangle. Rounding of the
+  /// corners moves the plane; the more the plane is slanted, the further the crossing moves along
+  /// the ray.
   double latest() const {
     const Vec2 u = corners_[1].beside - corners_[0].beside,
                v = corners_[2].beside - corners_[0].beside;
-    // Rounding of rise() in thin triangles.
+    // Allows for the rounding of rise() in thin triangles.
     const double sliver = 4 * tolerance::epsilon<double> * u.norm() * v.norm() /
                           std::abs(cross(u, v)) *
                           (std::abs(corners_[1].along - corners_[0].along) +
@@ -86,7 +87,8 @@ class Portal {
     return along_ray() + rounding_ * std::sqrt(1 + rise().squaredNorm()) + sliver;
   }
 
-  /// Replaces one corner so that the ray still passes through; false if that is not possible.
+  /// Replaces one corner so that the ray still passes through the triangle. Returns false if that
+  /// is impossible.
   bool refine(const Corner& corner) {
     const double turn = this->turn();
     double best = least_distance();
@@ -109,12 +111,12 @@ class Portal {
   double turn() const {
     return cross(corners_[1].beside - corners_[0].beside, corners_[2].beside - corners_[0].beside);
   }
-  /// Distance at which the ray passes to the left of the edge, to the right if `turn` is negative.
+  /// Distance at which the ray passes to the left of the edge; to the right if `turn` is negative.
   static double distance_within(const Corner& from, const Corner& to, double turn) {
     const double length = (to.beside - from.beside).norm();
     return length > 0 ? std::copysign(1.0, turn) * cross(from.beside, to.beside) / length : 0;
   }
-  /// Perpendicular to the edge, to its left if the sign is positive.
+  /// Vector perpendicular to the edge, to its left if the sign is positive.
   Vec2 beside_edge(std::size_t i, std::size_t j, double sign) const {
     const Vec2 edge = corners_[j].beside - corners_[i].beside;
     return Vec2(-edge.y(), edge.x()) * std::copysign(1.0, sign);
@@ -138,8 +140,8 @@ class Seen {
         n_(n),
         rounding_(tolerance::plane_rounding<double> * shape.inner_ball().radius + near.loss) {}
 
-  /// Returns an upper bound of where the ray enters, counted from the hit; infinite if none is
-  /// found.
+  /// Returns an upper bound of the parameter at which the ray enters the shape, relative to the
+  /// hit; infinite if none is found.
   double latest() const {
     for (const double tilt : tilts) {
       Portal portal(rounding_);

@@ -20,7 +20,7 @@ bool Judge::is_sharply_proven(const CastResult<double>& answer, bool before) {
 
 bool Judge::accepts(CastResult<double> answer) {
   if (answer.status != Status::exhausted) {
-    // Every direction is a normal of a point.
+    // For a point, every direction is a normal.
     const bool is_point = !(question_.shape.inner_ball().radius > 0.0);
     if (answer.status == Status::hit && (is_point || answer.normal.isZero(0)))
       answer.normal = -question_.near.r;
@@ -59,7 +59,7 @@ CastResult<double> Judge::verdict() const {
   if (accepted_) {
     result = *accepted_;
   } else if (proven_) {
-    // A near miss or touch of an ordinary shape is returned as it is if nothing better was found.
+    // For ordinary shapes, an unproven result (a near miss or a touch) is returned as it is.
     const bool is_answered = proven_->holds || (unproven_ && proof_ != Proof::all);
     result = proven_->answer;
     result.path = Path::finer;

@@ -79,7 +79,7 @@ CastResult<double> ask_stages_about_place(const StageQuestion& question) {
 /// Converts the result to the outer frame. Returns `exhausted` if its numbers would overflow.
 CastResult<double> in_outer_frame(const PreparedShape& shape, CastResult<double> result) {
   result.normal = shape.normal_to_outer(result.normal);
-  // The direction may be so short that the hit's t overflows.
+  // If the direction is very short, the hit's t may overflow.
   if (result.status == Status::hit && !std::isfinite(result.t())) result.status = Status::exhausted;
   const bool no_plane = result.status == Status::miss && result.normal.isZero(0);
   if (no_plane || !has_numbers<double>(result, result.normal)) {
@@ -89,9 +89,9 @@ CastResult<double> in_outer_frame(const PreparedShape& shape, CastResult<double>
   return result;
 }
 
-/// Rescales a cast at a point, which has no size to scale lengths by. If the ray passes the point
-/// so closely that squares of lengths underflow, but further away than the rounding of the point's
-/// position, multiplies all lengths by a power of two.
+/// Rescales a cast at a point, which has no size to which lengths could be scaled. Multiplies all
+/// lengths by a power of two if the ray passes the point so closely that squares of lengths
+/// underflow, but further away than the rounding of the point's position.
 RayNearBall<double> with_squares(const PreparedShape& point, RayNearBall<double> near) {
   const double nearest = std::clamp(0.0, near.lambda_min, near.lambda_max);
   const Vec3<double> to_ray = near.s + nearest * near.r;

@@ -57,7 +57,8 @@ InstructionSet best_instruction_set() {
 
 namespace {
 
-/// Casts with the shape's model, if it has one for packets; otherwise no lane is settled.
+/// Casts with the shape's model, if packets support the model; otherwise leaves all lanes
+/// undecided.
 void cast_with_models(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
                       bool leaves, CastPacket& answers, InstructionSet set) {
   if (!shape.definition().has_packets()) return;

@@ -36,7 +36,7 @@ void part(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes, boo
                                      ball.radius, mask_of<W>(lanes >> from));
   if (!any(bounds.open)) return all_miss(bounds);
   RayNearBall<W> near = shape.template to_inner<W>(ray);
-  // Left to the single casts.
+  // Leaves far and uncertain rays to single casts.
   bounds.open &= (!near.is_from_afar(ball.radius)) &
                  (near.loss <= W(tolerance::small_loss<double> * ball.radius));
   // The exit of a ray is the entry of the reversed ray.
@@ -64,7 +64,7 @@ void part(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes, boo
     std::swap(result.offset_lo, result.offset_hi);
   }
   keep_on_ray(ray, result);
-  // Uncertain lanes are left to the single casts.
+  // Leaves uncertain lanes to single casts.
   Mask<W> hit = result.hit & in_range & numbers, inside = result.inside & numbers;
   if (const double uncertain = shape.definition().uncertain_slope(); uncertain > 0.0) {
     hit &= -result.normal.dot(near.r) >= W(uncertain);

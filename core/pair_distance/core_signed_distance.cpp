@@ -77,9 +77,9 @@ double depth_within(const Enclosure& four) {
 }
 
 /// Improves axis and points of cores that nearly touch. The difference of their nearest points then
-/// has too few digits to give a direction. So B is moved out along the axis, where a search finds a
-/// more accurate axis and points. The axis and points are also valid for B in place, and the next
-/// round moves B out along the new axis.
+/// has too few digits for a direction. So B is moved out along the axis, where a search finds a
+/// more accurate axis and points. These also hold for B at its place. The next round moves B out
+/// along the new axis.
 void improve_plane(const CorePair& pair, CoreDistance& found) {
   constexpr double stand_offs[] = {1e-3, 1e-3, 1e-5};
   for (const double stand_off : stand_offs) {
@@ -103,7 +103,7 @@ void improve_plane(const CorePair& pair, CoreDistance& found) {
 }
 
 /// Finds the contact points: the points that coincide when B is moved out along the axis until the
-/// cores just touch. Moves B out a little further, where the nearest points are more accurate.
+/// cores just touch. B is moved out a little further, where nearest points are more accurate.
 void find_contact(const CorePair& pair, CoreDistance& found) {
   constexpr double stand_off = 1e-3;
   const double apart = stand_off * pair.size();
@@ -118,14 +118,15 @@ void find_contact(const CorePair& pair, CoreDistance& found) {
 /// Computes the depth of cores that overlap, or that touch up to rounding.
 CoreDistance depth_of_cores(const CorePair& pair, Enclosure enclosure, CoreDistance found,
                             const SignedDistanceOptions& options, double gap, bool only_sign) {
-  // If the overlap is this small, two points this close to each other are a good enough result.
+  // If the overlap is less than the gap, two points this close to each other are an accurate enough
+  // result.
   const double slight = gap * (pair.size() + pair.x.norm());
   if (found.status == CoreStatus::overlapping && found.lower >= -slight) {
     if (!(found.c.norm() <= slight / 2)) improve_plane(pair, found);
     if (found.lower <= 0 && found.c.norm() <= slight / 2) return found;
   }
-  // Points of the distance search, for a separated result. For an overlap, a common point is
-  // usually on neither surface, so it gives no upper bound.
+  // Keeps the points of the distance search for a separated result. For an overlap, a common point
+  // is usually on neither surface, so it gives no upper bound.
   const Vec3<double> a = found.a, c = found.c;
   const double upper = found.status == CoreStatus::overlapping
                            ? std::numeric_limits<double>::infinity()
@@ -234,7 +235,7 @@ CoreDistance core_signed_distance(const CorePair& pair, const SignedDistanceOpti
     improve_plane(pair, found);
     if (is_settled()) return found;
   }
-  // Two points at the same place have size 0.
+  // If both cores are points at the same place, the size is 0.
   const double reach = pair.size() + pair.x.norm();
   const auto depth_to = [&](double gap_of_depth) {
     return depth_of_cores(

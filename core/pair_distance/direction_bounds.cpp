@@ -20,8 +20,8 @@ class Search {
   }
 
   CoreDistance run() {
-    // Rotated: the directions that matter are often axes of a shape, and cells with such a
-    // direction at a corner would be cut again and again.
+    // Rotates the first cells. The directions that matter are often axes of a shape, and cells with
+    // such a direction at a corner would be halved again and again.
     const Mat3<double> start = rotation_matrix(0.31, 0.47, 0.59, 0.58);
     for (int octant = 0; octant < 8; ++octant) {
       const auto corner = [&](int axis) {
@@ -63,7 +63,7 @@ class Search {
 
   void add(DirectionCell& cell) {
     for (const DirectionSample& corner : cell.corners) cell.add_point(corner.c);
-    // Large cells are cut before more points are added.
+    // Halves large cells before more points are added.
     constexpr double large = 0.5;
     const int most = cell.length() > large ? 4 : DirectionCell::most_points;
     DirectionCellBound bound(cell, size_);
@@ -78,7 +78,7 @@ class Search {
     cells_.push_back(cell);
   }
 
-  /// Halves the longest side. Returns false for cells too small for their corners' digits.
+  /// Halves the longest side. Returns false if the cell is too small for the digits of its corners.
   bool split(std::size_t index) {
     constexpr double smallest = 1e-7;
     const DirectionCell cell = cells_[index];

@@ -9,7 +9,7 @@ namespace minkray {
 
 SignedDistance distance_to_half_space(const Vec3<double>& normal, double offset,
                                       const ContactShape& shape, const Affine<double>& pose) {
-  // Closer to the origin, more digits are not worth their time.
+  // Near the origin, twice the digits are not worth their time.
   constexpr double nearby = 4;
   const double far = nearby * shape.ball_radius();
   if (!shape.is_far_out() && std::abs(offset) <= far &&
@@ -44,7 +44,7 @@ PlacedPlane PlacedPlane::of(const Vec3<double>& normal, double offset, const Aff
 SignedDistance distance_to_half_space(const PlacedPlane& plane, const ContactShape& shape,
                                       const Mat3<double>& linear, const PlacedMiddle& middle) {
   const Vec3<double> x = (middle.at - plane.point).rounded();
-  // A normal along an axis is exact; rounding turns all others.
+  // A normal along an axis is exact; rounding turns all other normals.
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
   const bool is_exact = (plane.normal.array() != 0).count() == 1;
   const double loss = middle.loss + (is_exact ? 0 : rounding * length_of(x));

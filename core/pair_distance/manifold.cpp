@@ -18,7 +18,7 @@ double area(const Corner& a, const Corner& b, const Corner& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Corners in counter-clockwise order. One or two of them are a point or an edge.
+/// Corners in counter-clockwise order. A polygon with one or two corners is a point or an edge.
 struct Polygon {
   std::array<Corner, most_corners> corners;
   int count = 0;
@@ -28,7 +28,7 @@ struct Polygon {
 };
 
 /// Hull of corners projected along the normal (A. Andrew's monotone chain, 1979). Merges corners
-/// closer to each other than `near`, and drops corners that close to an edge.
+/// closer to each other than `near`, and drops corners within `near` of an edge.
 Polygon hull_of(std::array<Corner, directions> points, double near) {
   std::ranges::sort(points, [](const Corner& a, const Corner& b) {
     return a.x < b.x || (a.x == b.x && a.y < b.y);
@@ -75,7 +75,8 @@ Polygon clipped(Polygon polygon, const Polygon& by, double near) {
   return polygon;
 }
 
-/// Height of the polygon at a point inside it: on its edges, or on the fan around its first corner.
+/// Height of the polygon over a point inside it. The height is that of the edges, or of a fan of
+/// triangles from the first corner.
 double height_over(const Polygon& polygon, double x, double y) {
   const Corner p{x, y, 0};
   for (int i = 1; i + 1 < polygon.count; ++i) {
@@ -107,7 +108,7 @@ struct Seen {
   Mat3<double> turn;
   Vec3<double> middle;
 
-  /// The support point, the shape's radius included.
+  /// The support point of the shape, including its radius.
   Vec3<double> support(const Vec3<double>& n) const {
     const Vec3<double> d = turn.transpose() * n;
     return middle + turn * support_of_core<CoreKind::other>(shape.core(), d).point +
@@ -126,7 +127,7 @@ class Manifold {
         e0_(nearest.normal.unitOrthogonal()),
         e1_(nearest.normal.cross(e0_)) {}
 
-  /// Face that points along `sign` times the normal, relative to point_a.
+  /// Returns the face that points along `sign` times the normal, relative to point_a.
   Polygon face(const Seen& seen, double sign, double near) const {
     std::array<Corner, directions> corners;
     const Vec3<double>& n = nearest_.normal;
@@ -140,7 +141,7 @@ class Manifold {
     return hull_of(corners, near);
   }
 
-  /// Adds to `all` where the polygon of either lies within the other's.
+  /// Adds contact points at the corners of `within`, the polygon that both faces share.
   void add(const Polygon& within, const Polygon& of_a, const Polygon& of_b, double most) {
     for (int i = 0; i < within.count; ++i) {
       const Corner& p = within[i];

@@ -39,8 +39,8 @@ Revolution revolution_of(const ShapeCore& core) {
   return found;
 }
 
-/// A half plane in A's frame, bounded by the direction of a common axis; and the largest difference
-/// of n.c from that of cores of revolution about axes in that direction.
+/// A half plane in A's frame, bounded by the direction of a common axis. `off` is the largest error
+/// of n.c if the cores' axes are replaced by axes in that direction.
 struct HalfPlane {
   Vec3<double> along, across;
   double off;
@@ -56,7 +56,7 @@ std::optional<HalfPlane> meridian_of(const CorePair& pair) {
   // twice its sine.
   if (!a.is_any && !b.is_any) plane.off += 2 * e.cross(axis_b).norm() * pair.b.ball;
   plane.across = unit<double>(pair.x - e.dot(pair.x) * e);
-  // If the middles lie along the axis to within rounding, any half plane is as good.
+  // If the middles lie along the axis to within rounding, any half plane may be used.
   const double aslant = std::abs(plane.across.dot(e));
   if (!(aslant < 0.5) || plane.across.isZero(0)) {
     plane.off += 2 * (pair.x - e.dot(pair.x) * e).norm();
@@ -67,7 +67,8 @@ std::optional<HalfPlane> meridian_of(const CorePair& pair) {
   return plane;
 }
 
-/// A direction in the half meridian, n.c as a sinusoid of its angle, and g(n).
+/// A direction in the half plane, its support point (which gives n.c as a sinusoid of the angle),
+/// and g(n).
 struct Sample {
   double angle = 0;
   double across = 0, along = 0;  ///< the support point
@@ -158,7 +159,8 @@ std::optional<CoreDistance> bound_along_meridian(const CorePair& pair, const Cor
                                                  double gap) {
   const std::optional<HalfPlane> plane = meridian_of(pair);
   if (!plane) return {};
-  // g of the cores and of those of revolution differ by no more than `off`, twice.
+  // g of the cores and g of the cores of revolution differ by at most `off`; the gap includes this
+  // twice.
   const double size = pair.size() + pair.x.norm(), allowed = 2 * plane->off + rounding * size;
   constexpr double hardly = 1e-6;
   if (!(allowed <= hardly * size)) return {};

@@ -14,9 +14,9 @@ namespace {
 
 /// Converts the bounds and points of the cores, as returned by `search`, to those of the shapes
 /// (cores grown by their radii). Returns an unknown result for sizes outside the searchable range
-/// (core/pair/searchable.h), except for balls. `distance`: distance of the middles, with an error
-/// of at most `loss`. `to_world` rotates vectors from the search's frame to the world. The search's
-/// origin is A's middle, which is `origin` in the world.
+/// (core/pair/searchable.h), except for balls. `distance` is the distance of the middles, with an
+/// error of at most `loss`. `to_world` rotates vectors from the search's frame to the world. The
+/// search's origin is A's middle, which is at `origin` in the world.
 template <class Search, class ToWorld>
 SignedDistance bounded(const Search& search, const ContactShape& a, const ContactShape& b,
                        double distance, double loss, const Vec3<double>& origin,
@@ -52,8 +52,8 @@ SignedDistance bounded(const Search& search, const ContactShape& a, const Contac
   const Vec3<double>& between = to_world(found.c);
   result.normal = unit<double>(axis);
   // If the line between the cores' points is not parallel to the normal, the radii are applied
-  // along `outwards` instead, so that the bodies' points differ by `value` times the normal. In
-  // closed forms that line and the normal are parallel.
+  // along `outwards` instead of the normal, so that the bodies' points differ by `value` times the
+  // normal. In closed forms that line and the normal are parallel.
   const bool is_aside = is_from_points && found.lower < found.upper && radii > 0;
   const Vec3<double> outwards =
       is_aside ? unit<double>(between - std::min(result.value, 0.0) * result.normal) : axis;
@@ -111,7 +111,8 @@ SignedDistance of_point_and_solid(const NearBodies& near) {
                  [&](const Vec3<double>& v) -> Vec3<double> { return turn * v; });
 }
 
-/// Requires A's kind <= B's: solvers are compiled for this order only.
+/// Requires that A's kind is not after B's in CoreKind, since solvers are compiled for this order
+/// only.
 SignedDistance in_order(const NearBodies& near, const SignedDistanceOptions& options,
                         PairMemory* memory) {
   if (near.b.core().kind == CoreKind::point) return of_balls(near);

@@ -17,11 +17,11 @@ constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
 /// or of the time in which they turn by a radian.
 constexpr double first_step = 1e-30;
 
-/// Number of distance queries that may run out of support points before the impact is exhausted.
-/// With infinite bodies all queries do, and each takes as long as a thousand others.
+/// Number of distance queries that may run out of support points before the search ends. For bodies
+/// of infinite size all queries do, and each takes as long as a thousand others.
 constexpr int most_exhausted = 10;
 
-/// A body that may turn, relative to its pivot, or to its middle if it does not turn.
+/// A body that may turn. Positions are relative to its pivot, or to its middle if it does not turn.
 class Turning {
  public:
   Turning(const ContactShape& shape, const RigidMotion& motion)
@@ -87,7 +87,7 @@ class Advance {
     touching_ = options.touching * size_;
   }
 
-  /// Result of a miss: a plane with this normal separates the bodies until the end.
+  /// Called after a miss: a plane with this normal separates the bodies until the end.
   Impact run_missed(const Vec3<double>& normal) {
     bring_near();
     return miss(t_max_, normal);
@@ -100,7 +100,7 @@ class Advance {
     if (!memory_) memory_ = &of_steps;
     SignedDistance now = at(0);
     if (gave_up(now)) return give_up(0, now);
-    // The contact at the start counts unless the bodies part.
+    // Overlap or contact at the start ends the search unless the bodies part.
     if (now.upper < 0 || (now.value <= touching_ && approach(now, 0) <= parting()))
       return finish(ImpactStatus::inside, 0, 0, now);
     double t = 0;
@@ -128,8 +128,8 @@ class Advance {
     return result_.steps < options_.max_steps && exhausted_ < most_exhausted;
   }
 
-  /// True if the distance's search ended without an upper bound, or with one too large for a
-  /// contact: the lower bound alone does not show a contact.
+  /// True if the distance query found no upper bound, or one too large for a contact. The lower
+  /// bound alone does not prove a contact.
   bool gave_up(const SignedDistance& now) const {
     return now.is_unknown() || (now.value <= touching_ && now.upper > 2 * touching_);
   }
@@ -139,8 +139,8 @@ class Advance {
     return finish(ImpactStatus::undecided, t, std::numeric_limits<double>::infinity(), now);
   }
 
-  /// Makes all positions relative to A, so that no number exceeds the bodies' sizes, their distance
-  /// and their displacements.
+  /// Makes all positions relative to A, so that no number is larger than the bodies' sizes,
+  /// distance and displacements.
   void bring_near() {
     const PlacedMiddle of_a = turning_a_.seen_from(), of_b = turning_b_.seen_from();
     start_ = {(of_b.at - of_a.at).rounded(), of_a.loss + of_b.loss};
@@ -163,8 +163,8 @@ class Advance {
     return there;
   }
 
-  /// The upper bound is at most 0 only if the bodies overlap. Tries GJK alone first; cases that it
-  /// leaves open take a more expensive search.
+  /// Returns a distance whose upper bound is at most 0 only if the bodies overlap. Tries GJK alone
+  /// first; if that is undecided, runs a more expensive search.
   SignedDistance overlap_at(double t) {
     SignedDistanceOptions how;
     how.only_sign = true;
@@ -194,18 +194,18 @@ class Advance {
   /// Speed below which bodies count as at rest.
   double parting() const { return options_.touching * speed_; }
 
-  /// After a contact at time 0 at which the bodies part: returns a time at which they are apart, or
-  /// minus a time at which they overlap. Turning bodies may come back: the first check is at the
-  /// earliest time at which they may be apart; then the time is doubled.
+  /// For bodies that touch at time 0 and part: returns a time at which they are apart, or minus a
+  /// time at which they overlap. Turning bodies may come back. So the first check is at the
+  /// earliest time at which the bodies may be apart, and then the time is doubled.
   double leave(const SignedDistance& now) {
     const double turning = std::max(turning_a_.speed(), turning_b_.speed()), apart = 4 * touching_;
     const double at_this_speed = apart / approach(now, 0);
     const double first = turning > 0 ? apart / speed_ : at_this_speed;
-    // Points are of no size, and nothing is near to nothing: the way begins somewhere.
+    // For two points, `apart` is 0, so the first time needs a lower limit.
     double t = std::max(first, first_step * std::min(t_max_, 1 / turning));
     while (t < t_max_ && may_go_on()) {
       const SignedDistance then = at(t);
-      // Before they should be apart, as much as touches is the contact at the start.
+      // Until the bodies can be apart, a slight overlap belongs to the contact at time 0.
       if (then.upper < (t < at_this_speed ? -touching_ : 0)) return -t;
       if (then.lower > 2 * touching_) return t;
       t *= 2;
@@ -223,8 +223,8 @@ class Advance {
     return {n.dot(start_.x + t * velocity_) - h_a - h_b, h_a, h_b};
   }
 
-  /// Proves that there is no contact from t to the returned time, which is later than t unless
-  /// digits are lacking.
+  /// Proves that there is no contact from t to the returned time. That time is later than t unless
+  /// rounding prevents it.
   double proven_until(double t, double t_end, const SignedDistance& now) {
     constexpr double largest_turn = 1;  // radians in one step
     const Vec3<double> n = now.normal;
@@ -244,7 +244,7 @@ class Advance {
       const double worst = last.gap - bulge(turning_a_.speed() * step, first.h_a, last.h_a) -
                            bulge(turning_b_.speed() * step, first.h_b, last.h_b) - allowed;
       if (worst > 0 && worst >= last.gap - first.gap) return i == 0 && is_last ? t_end : t + step;
-      // The line through the two gaps is 0 there, or a little before.
+      // Shortens the step to slightly before the zero of the line through the two gaps.
       const double down = first.gap - worst;
       step *= std::clamp(down > 0 ? 0.9999 * (first.gap - allowed) / down : 0.5, 0.0, 0.9);
       if (!(t + step > t)) break;
@@ -256,7 +256,7 @@ class Advance {
     if (options_.points_of_misses) {
       const SignedDistance there = at(t_end);
       if (!there.is_unknown()) return finish(ImpactStatus::miss, t_end, t_end, there);
-      // The distance then exceeds the range of numbers.
+      // The distance overflows.
       result_.distance = std::numeric_limits<double>::infinity();
     }
     result_.normal = normal;
@@ -265,11 +265,11 @@ class Advance {
     return result_;
   }
 
-  /// Called if the bodies touch at t, to rounding: finds a time at which they touch with certainty.
+  /// Called if the bodies touch at t up to rounding. Finds a time at which they certainly touch.
   Impact meet(double t, double t_end, const SignedDistance& now) {
     double t_hi = t;
     if (now.upper > 0) {
-      // Moves on until they overlap, if they approach; otherwise coming this close is a contact.
+      // If the bodies approach, tries later times until they overlap. Otherwise they just touch.
       const double speed = -approach(now, t);
       constexpr double deep = 0.5;
       double later = std::max((2 * now.upper + deep * touching_) / std::max(speed, 1e-6 * speed_),
@@ -315,11 +315,11 @@ class Advance {
 };
 
 /// Impact without rotation: a ray cast at the difference of the bodies. Returns `open` for contacts
-/// at the start and grazing contacts; a miss only has a normal.
+/// at the start and for grazing contacts. For a miss, sets only the normal.
 SweptStatus swept_impact(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
                          const RigidMotion& motion_b, double t_max, const ImpactOptions& options,
                          PairMemory* memory, Impact& result) {
-  // The solvers are compiled for one order of two kinds.
+  // Solvers are compiled for only one order of two kinds.
   const bool is_turned = a.core().kind > b.core().kind;
   const ContactShape &first = is_turned ? b : a, &second = is_turned ? a : b;
   const RigidMotion &of_first = is_turned ? motion_b : motion_a,
@@ -336,7 +336,7 @@ SweptStatus swept_impact(const ContactShape& a, const RigidMotion& motion_a, con
     result.status = ImpactStatus::hit;
     result.t_lo = swept.t_lo;
     result.t_hi = std::max(swept.t_lo, swept.t_hi);
-    // The point belongs to both bodies at t_hi; at t_lo the second body is this much further back.
+    // The point belongs to both bodies at t_hi. At t_lo, the second body is behind it by `back`.
     const Vec3<double> back = (result.t_hi - result.t_lo) * velocity;
     result.point_a = result.point_b =
         middle_in_world(first, of_first.pose) + to_world(swept.a) + result.t_lo * of_first.velocity;

@@ -33,7 +33,7 @@ double distance_from_axis(const Shape& shape, const Vec3<double>& axis) {
     const Vec3<double> n = std::cos(angle) * u + std::sin(angle) * v;
     most = std::max(most, n.dot(shape.support(n)));
   }
-  // The corners of the half-planes' polygon are further out by this factor.
+  // The half-planes around the shape bound a polygon, whose corners are further out by this factor.
   return most / std::cos(std::numbers::pi / directions);
 }
 

@@ -6,7 +6,8 @@
 namespace minkray {
 namespace {
 
-/// Indices of a pair of planes: a face of A (j < 0), one of B (i < 0), or an edge of each.
+/// Indices of the axes that define a slab: i of A's face (j < 0), j of B's face (i < 0), or one
+/// edge of each.
 struct Slab {
   int i, j;
 };
@@ -50,15 +51,15 @@ class BoxSweep {
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  /// Clips the ray by a slab: at time t it is at s + t v, and the slab goes from -reach to reach;
-  /// numbers are relative to the length of the slab's normal, or slightly more. Returns true to
-  /// continue. The slab that is entered last is only known at the end.
+  /// Clips the ray by a slab. At time t the ray is at s + t v, and the slab is from -reach to
+  /// reach; these numbers are in units of `length`, the length of the slab's normal or slightly
+  /// more. Returns true to continue. The slab that the ray enters last is known only at the end.
   bool pass(double s, double v, double reach, double length, int i, int j) {
     const double allowed = rounding_ * length, sign = std::copysign(1.0, v), speed = sign * v;
     slabs_[count_] = {i, j};
     sides_[count_] = -sign;
     if (speed == 0) {
-      // Always outside of the slab, always inside, or too close to decide.
+      // The ray stays outside the slab, stays inside, or is too close to decide.
       if (std::abs(s) < reach - allowed) return true;
       if (std::abs(s) - reach > near_ * length + allowed) {
         sides_[count_] = s < 0 ? -1 : 1;
@@ -67,7 +68,7 @@ class BoxSweep {
       }
       return false;
     }
-    // Gap to the plane that the ray approaches; decreases by speed * t.
+    // Gap to the plane that the ray approaches; the gap decreases by speed * t.
     const double gap = -sign * s - reach, per_speed = 1 / speed;
     in_[count_] = (gap - allowed) * per_speed;
     out_[count_] = (gap + 2 * reach) * per_speed;
@@ -91,7 +92,7 @@ class BoxSweep {
     return n;
   }
 
-  /// From A to B, of unit length.
+  /// Returns the unit normal of slab n, from A to B.
   Vec3<double> normal_of(int n, double side) const {
     const auto [i, j] = slabs_[n];
     const Vec3<double> normal =
@@ -104,8 +105,8 @@ class BoxSweep {
     return n.dot(nearest_along<CoreKind::box, CoreKind::box>(pair_, n).c) - rounding_;
   }
 
-  /// Sets a plane that separates the boxes at all times: of the slab entered last, of the slab left
-  /// first, or one between the two that is parallel to the motion.
+  /// Sets a plane that separates the boxes at all times: that of the slab entered last, that of the
+  /// slab left first, or a plane between the two that is parallel to the motion.
   SweptTime miss() {
     if (count_ == 0) return result_;
     const Vec3<double> n_in = normal_of(entered(), 1), n_out = normal_of(left(), -1);

@@ -9,9 +9,9 @@
 namespace minkray {
 namespace {
 
-/// Searches with the signed distance at a time, in the frame of the search. A separating plane
-/// found at any time proves a lower bound of the contact's time, so steps may overshoot: `guess`
-/// proposes the time at which the features that are nearest at a time touch.
+/// Searches by the signed distance at given times. A separating plane at any time proves a lower
+/// bound of the time of contact, so steps may overshoot. `guess` proposes the time at which the
+/// features touch that are nearest at a given time.
 template <class DistanceAt, class Guess>
 class ClosedSweep {
  public:
@@ -34,7 +34,7 @@ class ClosedSweep {
       const bool is_guess = t > result_.t_lo;
       const CoreDistance found = distance_at_(t);
       const double gap = found.lower - radii_ - rounding_, approach = -found.axis.dot(velocity_);
-      // Contact at the start: left open.
+      // Contacts at the start are not decided here.
       if (step == 0 && !(gap > near_)) return result_;
       if (!(approach > 0)) {
         if (is_guess) {
@@ -68,7 +68,7 @@ class ClosedSweep {
 
  private:
   static constexpr int most_steps = 40, most_guesses = 4;
-  /// The last step has found the contact if the gap is below this fraction of the requested one.
+  /// The search ends with a contact if the gap is below this fraction of `near`.
   static constexpr double near_as_asked = 1e-4;
 
   void end(SweptStatus status, const Vec3<double>& axis) {
@@ -76,7 +76,7 @@ class ClosedSweep {
     result_.axis = unit<double>(axis);
   }
 
-  /// Called if the gap at t is tiny: slightly later the cores overlap.
+  /// Called if the gap at t is tiny. Proves that the cores overlap slightly later.
   SweptTime touch(double t, double approach) {
     const double later = t + (2 * rounding_ + near_as_asked * near_) / approach;
     const CoreDistance there = distance_at_(later);
@@ -93,7 +93,7 @@ class ClosedSweep {
   const DistanceAt& distance_at_;
   const Guess& guess_;
   double radius_of_a_, radii_, rounding_, speed_;
-  double latest_;  ///< upper bound of the time: later the middles are too far apart for a contact
+  double latest_;  ///< limit of the time: after it, the middles are too far apart
   SweptTime result_;
 };
 
@@ -103,14 +103,14 @@ SweptTime sweep(const CorePair& pair, const Vec3<double>& velocity, double t_max
   return ClosedSweep<DistanceAt, Guess>(pair, velocity, t_max, near, distance_at, guess).run();
 }
 
-/// Time at which the nearest features of two segments (p on A, q on B) are `radii` apart; a feature
-/// is an end, or the line if the nearest point is inside the segment. NaN if they never are, or
-/// move in parallel.
+/// Returns the time at which the nearest features of two segments (p on A, q on B) are `radii`
+/// apart. The feature of a segment is an end, or the line if the nearest point is not an end. NaN
+/// if the features never come this close, or move in parallel.
 double contact_of_features(const Vec3<double>& p, const Vec3<double>& q, const Vec3<double>& x,
                            const Vec3<double>& velocity, const CoreDistance& found, double at,
                            double radii) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  constexpr double within = 1 - 1e-9;  // an end, if it is no nearer to the middle
+  constexpr double within = 1 - 1e-9;  // points further from the middle count as an end
   const double pp = p.squaredNorm(), qq = q.squaredNorm();
   const Vec3<double> on_b = found.c + found.a - x;
   const bool is_within_a = found.a.squaredNorm() < within * pp,

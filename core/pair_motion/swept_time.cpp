@@ -13,7 +13,7 @@ namespace minkray {
 
 namespace {
 
-/// Two balls: the first solution of |x + t v| = r, with bounds of its rounding.
+/// Two balls: the first solution of |x + t v| = r, with error bounds.
 SweptTime of_balls(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near) {
   SweptTime result;
   const double radius = pair.a.radius + pair.b.radius, squared = velocity.squaredNorm(),
@@ -45,7 +45,7 @@ SweptTime of_balls(const CorePair& pair, const Vec3<double>& velocity, double t_
   return result;
 }
 
-/// Casts with speeds whose squares are normal numbers.
+/// Requires speeds whose squares are normal numbers.
 SweptTime of_ordinary_speeds(const CorePair& pair, const Vec3<double>& velocity, double t_max,
                              double near, PairMemory* memory) {
   if (pair.a.kind == CoreKind::point && pair.b.kind == CoreKind::point)
@@ -76,13 +76,13 @@ SweptTime swept_time(const CorePair& pair, const Vec3<double>& velocity, double 
                      PairMemory* memory) {
   const double size = pair.size() + pair.a.radius + pair.b.radius;
   if (!are_searchable(size, pair.x.cwiseAbs().maxCoeff())) return {};
-  // Beyond these, squares of speeds come close to the range of double, 2^-1074 to 2^1024.
+  // Beyond these limits, squares of speeds approach the range of double, 2^-1074 to 2^1024.
   constexpr double slowest = 0x1p-400, fastest = 0x1p400;
   const double most = velocity.cwiseAbs().maxCoeff();
   if (most > slowest && most < fastest)
     return of_ordinary_speeds(pair, velocity, t_max, near, memory);
   if (!(most > 0) || !velocity.allFinite()) return {};
-  // A power of two as the unit of time rounds no speed.
+  // The unit of time is a power of two, so that speeds are not rounded.
   constexpr double infinity = std::numeric_limits<double>::infinity();
   int power = 0;
   std::frexp(most, &power);

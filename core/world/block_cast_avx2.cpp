@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Exact casts of four rays at a time, which read rays and places in their arrays. Everything here
-// has internal linkage, or the type of the lanes in its name: see core/math/wide.h.
+// Exact casts of four rays at a time, which are read from their arrays. All functions have internal
+// linkage or the lanes' type in their name (core/math/wide.h explains why).
 #include "core/cast/filter.h"
 #include "core/cast/packet_lanes.h"
 #include "core/world/ray_block.h"
@@ -31,7 +31,7 @@ using D = Wide<double, 4, IsaAvx2>;
   return {column[0], column[1], column[2]};
 }
 
-/// `joined` of core/screen/instance_place.h for four numbers of a place.
+/// Same as `joined` of core/screen/instance_place.h, for four numbers.
 [[gnu::always_inline]] inline __m256d joined(const float* leading, const std::int32_t* trailing) {
   const __m256d number = _mm256_cvtps_pd(_mm_loadu_ps(leading));
   if (!trailing) return number;

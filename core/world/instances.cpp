@@ -20,7 +20,8 @@ constexpr int bounds_padding = 32;
 /// Number of poses that a thread takes at a time: some hundred microseconds of work.
 constexpr std::size_t poses_a_range = 4096;
 
-/// Index in Defined::bodies: 1 if turned, plus 2 if plain; this one is for wide maps.
+/// Bodies in Defined::bodies are indexed by 1 if turned, plus 2 if plain. This is the index of the
+/// body for maps that do not fit in float.
 constexpr std::size_t wide_body = 4;
 
 Bounds<double> padded(const Bounds<double>& bounds) {
@@ -62,7 +63,7 @@ std::uint32_t Instances::define(const std::shared_ptr<const ShapeDefinition>& sh
     number = number_of(shared);
     equal_.emplace(hash, number);
   }
-  // The address identifies this definition only while it is owned.
+  // An address identifies a definition only while this object owns the definition.
   if (definitions_[number].shared == shared) shared_.emplace(shared.get(), number);
   return number;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Everything here has internal linkage or the type of the lanes in its name: see core/math/wide.h.
+// All functions have internal linkage or the lanes' type in their name (core/math/wide.h explains
+// why).
 #include "core/world/ray_block.h"
 
 #include "core/query/tolerances.h"
@@ -10,8 +11,8 @@
 namespace minkray {
 namespace {
 
-/// An instance in the frame of its form for all rays of a block: at parameter k the middle ray is
-/// at `near` and has the direction `d`; other rays have d + map delta.
+/// A block's rays in the frame of an instance's form. At parameter k the middle ray is at `near`.
+/// Its direction is `d`; other rays have the direction d + map delta.
 struct Seen {
   W map[3][3], near[3], d[3];
   W k, E, share;
@@ -48,7 +49,7 @@ void see(const Block& block, const InstancePlace& place, const ScreenForm& form,
     dd += d * d;
     for (int column = 0; column < 3; ++column) seen.map[row][column] = W(scale * m[3 * column]);
   }
-  // Magnitude of all numbers that are summed, for the worst ray: see `look` in
+  // Magnitude of all numbers that are summed, for the ray with the largest. Compare `look` in
   // core/screen/screen_kernel_avx2.cpp.
   const auto wide = static_cast<float>(block.widest);
   const float size = std::sqrt(map_squared) * largest_scale;
@@ -66,9 +67,9 @@ void see(const Block& block, const InstancePlace& place, const ScreenForm& form,
       least_d > 0 && E < tolerance::screen_largest_share * std::min(form.least, form.R);
 }
 
-/// Lower and upper bounds of t for eight rays at the form; `box` has the parameters at which they
-/// enter its box. Lanes that are not open miss; an infinite upper bound means that the hit is not
-/// certain.
+/// Returns lower and upper bounds of t for eight rays at the form; `box` has the parameters at
+/// which the rays enter the instance's box. Lanes that are not open miss. An infinite upper bound
+/// means that the hit is not certain.
 template <FormKind kind>
 [[gnu::always_inline]] inline void look(const Seen& seen, const FormInLanes& form,
                                         const Vec3<W>& delta, const W& box, W& first, W& last,
@@ -106,7 +107,7 @@ template <FormKind kind>
   last = select(sure, hi, W(infinity));
 }
 
-/// Stores write up to eight items behind the last.
+/// Size of arrays: a store may write up to eight items after the last.
 constexpr int room = all_rays + 8;
 
 /// Rays of a block that hit the box of one instance, in contiguous arrays.
@@ -116,7 +117,7 @@ struct MeetingRays {
   alignas(32) std::uint32_t rays[room];
 };
 
-/// Tests the rays against a child's box, by their own limits.
+/// Tests the rays against a child's box, each with its own limit.
 void gather_meeting(const Block& block, const BvhNode& node, int child, const BlockAnswer& answer,
                     MeetingRays& meeting) {
   __m256 lower[3], upper[3];
@@ -162,7 +163,7 @@ void gather_meeting(const Block& block, const BvhNode& node, int child, const Bl
   meeting.count = count;
 }
 
-/// Returns false if there is no room for another.
+/// Adds a pair of a ray and an instance. Returns false if there is no room for another.
 bool add_other(BlockAnswer& answer, float first, std::uint32_t ray, std::uint32_t instance) {
   if (answer.other_count == BlockAnswer::most_others) return false;
   answer.others[answer.other_count++] = {first, ray, instance};

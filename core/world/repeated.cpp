@@ -8,7 +8,7 @@
 namespace minkray {
 namespace {
 
-/// Equal instances have equal hashes.
+/// Returns a hash that is the same for equal instances.
 std::uint64_t hash_of(const Instances& instances, std::uint32_t i) {
   const InstancePlace& place = instances.places()[i];
   std::uint64_t hash = place.body;
@@ -26,7 +26,7 @@ std::vector<RepeatedInstance> repeated_instances(const Instances& instances) {
   std::vector<RepeatedInstance> repeated;
   const auto count = static_cast<std::uint32_t>(instances.size());
   if (instances.move() || count < 3) return repeated;
-  // Most worlds have no repeated instances: a small table of counts by hash shows this quickly.
+  // Most worlds have no repeated instances. A small table indexed by hash shows this quickly.
   const std::uint64_t slots = std::bit_ceil(std::uint64_t(4) * count);
   std::vector<std::uint8_t> seen(slots);
   const auto slot_of = [&](std::uint32_t i) { return hash_of(instances, i) & (slots - 1); };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Everything here has internal linkage or the type of the lanes in its name: see core/math/wide.h.
+// All functions have internal linkage or the lanes' type in their name (core/math/wide.h explains
+// why).
 #include "core/world/single_ray.h"
 
 #include "core/bvh/slab_test.h"
@@ -63,7 +64,8 @@ class Pending {
     return world_.screens[world_.places[instance_[i]].body].kind;
   }
 
-  /// Lower bound of t inside a box entered at this parameter: the inverse of SlabRay::limit.
+  /// Lower bound of t inside a box that the ray enters at the parameter `entered`: the inverse of
+  /// SlabRay::limit.
   float least_t(float entered) const {
     const double from = static_cast<double>(entered) - static_cast<double>(slab_tiny);
     return static_cast<float>(from / (ray_.slabs.steps * static_cast<double>(hit_padding)));
@@ -135,7 +137,7 @@ bool trace_single_avx2(const SingleWorld& world, SingleRay& ray) {
     for (const int bottom = top; met != 0; met &= met - 1) {
       const int child = __builtin_ctz(met);
       const std::uint32_t what = here.children[child];
-      if (what == BvhNode::none) break;  // rays from beyond float's range
+      if (what == BvhNode::none) break;  // for origins outside the range of float
       if (what & BvhNode::leaf) {
         pending.add(what & ~BvhNode::leaf, enters[child]);
         continue;

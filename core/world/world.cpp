@@ -10,9 +10,9 @@
 namespace minkray {
 namespace {
 
-/// A refitted BVH is kept until the expected visits per ray exceed this many times those after its
-/// build. Rebuilding 10,000 boxes takes as long as some ten thousand rays, so a rebuild pays for
-/// any picture.
+/// After a refit, the BVH is rebuilt if its expected visits per ray exceed this many times those
+/// after its last build. Rebuilding 10,000 boxes takes as long as some ten thousand rays, so a
+/// rebuild pays for any picture.
 constexpr double most_visits_after_refit = 1.5;
 
 /// Closed forms and packets require the default options.
@@ -69,8 +69,8 @@ void World::build(const FirstTouchVector<Bounds<float>>& boxes) {
         child = BvhNode::leaf | number[child & ~BvhNode::leaf];
 }
 
-// Casts use the ray's own t_max, not the nearest hit so far, so that results, and which of them is
-// nearest, do not depend on the order of the boxes.
+// Casts use the ray's own t_max rather than the nearest hit so far. Otherwise results, and the
+// choice between hits, would depend on the order of the boxes.
 void World::closer_hit(const WorldRay& ray, SlabRay& slabs, WorldHit& closest,
                        QueryCounts& counts) const {
   if (closer_shapeless(ray, closest, counts)) slabs.numbers.t_max = slabs.limit(closest.cast.t());

@@ -23,12 +23,12 @@ WorldCrossing crossing_of(const WorldRay& ray, std::uint32_t instance,
           leaves};
 }
 
-/// Result of a ray that leaves at its origin.
+/// Result for a ray that leaves the shape at the ray's origin.
 CastResult<double> at_origin(const Vec3<double>& normal) {
   return {Status::hit, Path::filter, 0, 0, 0, 0, normal};
 }
 
-/// The crossings of one instance do not go back, whatever their rounding.
+/// Makes t of the crossings of one instance ascend, in spite of rounding.
 void put_in_order(std::vector<WorldCrossing>& crossings, std::size_t first) {
   for (std::size_t i = first + 1; i < crossings.size(); ++i) {
     WorldCrossing& one = crossings[i];
@@ -54,7 +54,8 @@ void World::add_shape_crossings(const WorldRay& ray, std::uint32_t instance,
   if (entry.status == Status::hit) add(entry, false);
   CastResult<double> exit = cast_exit_within(shape, seen, options_);
   counts.add_cast(exit);
-  // A ray that only touches the shape leaves it at once, due to rounding.
+  // A ray that only touches the shape may enter without an exit, due to rounding: it then leaves
+  // where it enters.
   if (exit.status == Status::miss)
     exit = entry.status == Status::hit ? entry : at_origin(unit<double>(seen.direction));
   if (exit.status == Status::hit) add(exit, true);

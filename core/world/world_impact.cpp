@@ -9,8 +9,8 @@
 namespace minkray {
 namespace {
 
-/// Box that, moved with the body's velocity, contains the body at any time, including the rounding
-/// of its position.
+/// Returns a box that, moved with the body's velocity, contains the body at any time. Includes the
+/// rounding of the body's position.
 Bounds<double> moving_box(const PartsBody& moving, const RigidMotion& motion) {
   if (motion.angular_velocity.isZero(0)) return bounds_of(moving, motion.pose);
   constexpr double roundings = 16 * std::numeric_limits<double>::epsilon();

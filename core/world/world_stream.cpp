@@ -10,8 +10,8 @@
 namespace minkray {
 namespace {
 
-/// Number of pairs without a closed form that are cast together: more share packets, but fewer are
-/// skipped because of nearer hits.
+/// Number of pairs without a closed form that are cast together. With more pairs, packets are
+/// fuller, but fewer pairs are skipped because of nearer hits.
 constexpr std::size_t formless_at_once = 128;
 
 /// Number of pairs by which prefetching is ahead of casts.
@@ -81,7 +81,7 @@ void World::answer_stream(const RaySpan& rays, std::size_t first, HitReceiver& t
       to.take(first + i, hits[i], false);
       continue;
     }
-    // A solver failed to converge, or a certain hit was not confirmed.
+    // Traces the ray alone if a solver failed to converge or a certain hit was not confirmed.
     QueryCounts alone;
     const WorldHit hit = closest_hit(rays[i], alone);
     to.take(first + i, hit, alone.exhausted > 0);
