@@ -11,7 +11,8 @@ Shape under(const Mat3<double>& linear, const Shape& shape) {
   return Transform{shape, Affine<double>{linear, Vec3<double>::Zero()}};
 }
 
-/// Nearer to its frame's origin than this, in its own size, a shape stays where it is.
+/// Largest distance of a shape from its frame's origin, in its own size, up to which it is not
+/// moved.
 constexpr double far = 4;
 
 bool is_far(const Bounds<double>& bounds) {
@@ -26,7 +27,7 @@ double similarity_of(const ComposedMap& map) {
 struct Rebuilder {
   const ComposedMap& map;
 
-  /// Already about its origin.
+  /// For shapes that are around the origin of their frame.
   template <class S>
   AboutMiddle operator()(const S& shape) const {
     return {under(map.linear.high, shape), map.translation,
@@ -55,7 +56,7 @@ struct Rebuilder {
             map.loss_of_image(middle) + loss_of_turns(moved, map, similarity_of(map))};
   }
 
-  /// Finds the box by its own support points.
+  /// Finds the middle by support points.
   AboutMiddle operator()(const Custom& custom) const {
     Bounds<double> bounds;
     for (int axis = 0; axis < 3; ++axis) {
@@ -136,7 +137,7 @@ struct Rebuilder {
   }
 };
 
-/// Moves what can be moved without another map.
+/// Moves each kind of shape. Adds a map only if necessary.
 struct Mover {
   const Vec3<double>& way;
 

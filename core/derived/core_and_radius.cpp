@@ -10,7 +10,7 @@ namespace minkray {
 namespace {
 
 using namespace cores;
-/// Uses the support mapping, about the middle of a box found with it.
+/// Makes a core of the kind `other`, around the middle of its bounding box.
 CoreAndRadius of_other(const Shape& shape, const ComposedMap& map, double radius) {
   const AboutMiddle about = about_middle(shape, map);
   Vec3<double> low, high;
@@ -27,7 +27,7 @@ CoreAndRadius of_other(const Shape& shape, const ComposedMap& map, double radius
   core.radius = radius;
   core.ball = length_of((high - low) / 2) * padding;
   core.shape = about_middle.get();
-  // The core's own place relative to the middle of its parts has already lost those digits.
+  // The position of the middle of the box, relative to the shape's parts, is already rounded.
   constexpr double lost = 4 * std::numeric_limits<double>::epsilon();
   CoreAndRadius found =
       placed(core, Mat3<double>::Identity(), place, about.loss + lost * length_of(middle));
@@ -35,8 +35,8 @@ CoreAndRadius of_other(const Shape& shape, const ComposedMap& map, double radius
   return found;
 }
 
-/// The exponent of a power of two that is larger than all of the numbers: products of what is
-/// scaled down by it are numbers, and no digit is lost.
+/// Returns the exponent of a power of two larger than all of the numbers. If numbers are scaled
+/// down by it, which is exact, their products do not overflow.
 template <class Numbers>
 int exponent_of_largest(const Numbers& numbers) {
   int exponent = 0;
@@ -49,15 +49,15 @@ Numbers scaled_down(const Numbers& numbers, int exponent) {
   return numbers.unaryExpr([exponent](double x) { return std::ldexp(x, -exponent); });
 }
 
-/// The factor by which the map scales all lengths; 0 if there is none.
+/// Factor by which the map scales all lengths; 0 if lengths scale differently.
 double similarity_of(const Mat3<double>& linear) {
   const int exponent = exponent_of_largest(linear);
   const Affine<double> map{scaled_down(linear, exponent), Vec3<double>::Zero()};
   return std::ldexp(AffineMap(map).similarity(), exponent);
 }
 
-/// True if the map keeps the coordinate axes at right angles, but for a few roundings: boxes stay
-/// boxes then, and ellipsoids keep their axes.
+/// True if images of the coordinate axes are perpendicular, up to a few roundings. Boxes then stay
+/// boxes, and ellipsoids keep their axes.
 bool keeps_right_angles(const Mat3<double>& linear) {
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
   const auto column = [&](int i) {
@@ -73,7 +73,7 @@ bool keeps_right_angles(const Mat3<double>& linear) {
 
 CoreAndRadius find(const Shape& shape, const ComposedMap& map, double radius);
 
-/// True if the shape is about its origin: neither points nor other shapes are moved.
+/// True if the shape is of a kind that is always around its origin.
 bool is_about_origin(const Shape& shape) {
   const auto is_within = []<class... Kinds>(const Shape& one, std::variant<Kinds...>*) {
     return (std::holds_alternative<Kinds>(one.kind) || ...);
@@ -83,11 +83,11 @@ bool is_about_origin(const Shape& shape) {
   return !is_within(shape, static_cast<Others*>(nullptr));
 }
 
-/// A Minkowski sum whose operands are all points and balls, except for at most one: they move that
-/// one and make it rounder.
+/// A Minkowski sum of points and balls and at most one other operand. The points move this operand,
+/// and the balls increase its radius.
 class BallsAndOne {
  public:
-  /// Returns false if the sum is no longer of that kind.
+  /// Returns false if the sum has a second such operand.
   bool add(const Shape& operand, const ComposedMap& about_origin) {
     CoreAndRadius one = find(operand, about_origin, 0);
     offset_ = offset_ + TwoFoldVec3<double>(one.middle, one.middle_low);
@@ -119,11 +119,11 @@ class BallsAndOne {
   CoreAndRadius one_;
 };
 
-/// Kinds whose core is known. Nothing for others.
+/// Finds the core of each kind of shape. Returns false for other kinds.
 struct CoreFinder {
   const ComposedMap& map;
   double radius;
-  double similarity;  ///< by how much the map scales all lengths; 0 if it does not
+  double similarity;  ///< factor by which the map scales all lengths; 0 if there is none
 
   const Mat3<double>& linear() const { return map.linear.high; }
 
@@ -134,7 +134,7 @@ struct CoreFinder {
     return placed(core, linear() / similarity, map.translation, map.loss);
   }
 
-  /// A core along axes that stay at right angles.
+  /// Makes a core whose axes stay perpendicular under the map.
   CoreAndRadius along_columns(ShapeCore core) const {
     Mat3<double> turn;
     for (int i = 0; i < 3; ++i) {
@@ -146,7 +146,7 @@ struct CoreFinder {
     return placed(core, turn, map.translation, map.loss);
   }
 
-  /// Along the z axis, about the origin.
+  /// Makes a segment along the z axis, around the origin.
   CoreAndRadius upright_segment(double half_height, double grown_by) const {
     const Vec3<double> half(0, 0, half_height);
     return of_segment(map.image(Vec3<double>(-half)), map.image(half), grown_by, map.loss);

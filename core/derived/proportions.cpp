@@ -11,22 +11,23 @@
 namespace minkray {
 namespace {
 
-/// Limits longest to thinnest for shapes that lie along the axes: their supports are products with
-/// each axis' own length, which rounding leaves as precise as that length.
+/// Largest ratio of lengths for shapes along the axes. Their support points are products with each
+/// axis' own length, so rounding is relative to that length.
 constexpr double most_along_axes = 0x1p20;
-/// Points may lie askew: their coordinates are rounded to the longest.
+/// Largest ratio for shapes given by points: these may be in any direction, so rounding is relative
+/// to the largest length.
 constexpr double most_askew = 0x1p12;
 
-/// The longest to what it is rounded by: what is hardly rounded is nearly a sharp edge.
+/// Largest ratio of size to rounding radius: with smaller radii, edges are nearly sharp.
 constexpr double most_to_rounding = 0x1p20;
 
-/// Least excess of a superellipsoid's exponent over 1: below, its edges are curved so much more
-/// than its faces that a model which agrees with one of its planes may still be far off (at 2^-14).
-/// At 1 it has corners, which are known.
+/// Least excess of a superellipsoid's exponent over 1. Below this, edges are curved so much more
+/// than faces that a model that agrees with one plane may be far off (observed at 2^-14). An
+/// exponent of exactly 1 is allowed, since the corners are then known.
 constexpr double least_above_1 = 0x1p-10;
 
-/// The longest over the thinnest; 1 if there is nothing but one length. `flat`: lengths up to it
-/// count as none.
+/// Ratio of the longest to the shortest length; 1 if there is only one. Lengths up to `flat` count
+/// as zero.
 double ratio_of(Vec3<long double> lengths, double flat) {
   std::sort(lengths.begin(), lengths.end());
   for (const long double length : lengths)
@@ -34,19 +35,19 @@ double ratio_of(Vec3<long double> lengths, double flat) {
   return 1;
 }
 
-/// Half of a box's sides: in double, half of the least number is rounded to nothing.
+/// Half extents of a box, in long double, since half of the least double is rounded to 0.
 Vec3<long double> half_extents_of(const Bounds<double>& bounds) {
   return (bounds.upper.cast<long double>() - bounds.lower.cast<long double>()) / 2;
 }
 
-/// Half of a shape's lengths: those of its box.
+/// Half extents of the shape's bounding box.
 template <class S>
 Vec3<long double> half_lengths_of(const S& shape) {
   return half_extents_of(bounds_of(shape));
 }
 
-/// Slanted planes lie nearer to one another than their box is high: half of the way across them
-/// takes the place of the least length, where they are furthest apart.
+/// Slanted planes may be closer to each other than the height of the bounding box. So the least
+/// length is replaced by half of their distance, measured where they are furthest apart.
 Vec3<long double> half_lengths_of(const CutCylinder& shape) {
   using Long = long double;
   Vec3<Long> lengths = half_extents_of(bounds_of(shape));
@@ -61,7 +62,7 @@ Vec3<long double> half_lengths_of(const CutCylinder& shape) {
   return lengths;
 }
 
-/// Exactly, up to the rounding of long double.
+/// True if the points are collinear, up to the rounding of long double.
 bool is_on_a_line(std::span<const Vec3<double>> points) {
   using Long = long double;
   const Vec3<Long> first = points[0].cast<Long>();
@@ -76,12 +77,12 @@ bool is_on_a_line(std::span<const Vec3<double>> points) {
 
 /// Extents of points along their principal axes.
 struct Spread {
-  double size = 0;                              ///< of the box around them
-  Vec3<double> lengths = Vec3<double>::Zero();  ///< by the size, the shortest first
-  double flat = 0;                              ///< lengths up to it are rounding
+  double size = 0;                              ///< longest side of the bounding box
+  Vec3<double> lengths = Vec3<double>::Zero();  ///< relative to the size, ascending
+  double flat = 0;                              ///< lengths up to this are rounding
 };
 
-/// Scales the points, so that squares stay in range.
+/// Scales the points by their size, so that squares stay in range.
 Spread spread_of(std::span<const Vec3<double>> points) {
   Vec3<double> lower = points[0], upper = lower;
   for (const Vec3<double>& p : points) {
@@ -90,7 +91,7 @@ Spread spread_of(std::span<const Vec3<double>> points) {
   }
   const double size = (upper - lower).maxCoeff();
   if (!(size > 0) || !std::isfinite(size)) return {size};
-  // About their mean, which lies in the plane if they all do.
+  // Positions are relative to the mean of the points. If all points are in a plane, so is the mean.
   Vec3<double> mean = Vec3<double>::Zero();
   for (const Vec3<double>& p : points) mean += (p - lower) / size;
   mean /= double(points.size());
@@ -106,7 +107,7 @@ Spread spread_of(std::span<const Vec3<double>> points) {
     least = least.cwiseMin(along);
     most = most.cwiseMax(along);
   }
-  constexpr double roundings = 64;  // of coordinates, a turn, and axes that are rounded as well
+  constexpr double roundings = 64;  // of coordinates, a rotation, and rounded axes
   const double coordinate = std::max(lower.cwiseAbs().maxCoeff(), upper.cwiseAbs().maxCoeff());
   const double flat = roundings * std::numeric_limits<double>::epsilon() * coordinate / size;
   Vec3<double> lengths = most - least;
@@ -114,7 +115,7 @@ Spread spread_of(std::span<const Vec3<double>> points) {
   return {size, lengths, flat};
 }
 
-/// A needle that is thinner than rounding both ways, but no segment.
+/// True for points that are thinner than rounding in two directions, but not collinear.
 bool is_lost_needle(const Spread& spread, std::span<const Vec3<double>> points) {
   return spread.lengths[1] <= spread.flat &&
          spread.lengths[1] * most_along_axes <= spread.lengths[2] && !is_on_a_line(points);
@@ -128,7 +129,7 @@ double ratio_of_points(std::span<const Vec3<double>> points) {
   return ratio_of(spread.lengths.cast<long double>(), spread.flat);
 }
 
-/// Largest and least factor by which maps stretch what they map.
+/// Largest and least factor by which maps scale lengths.
 struct Stretch {
   double most = 1, least = 1;
   double ratio() const { return most / least; }
@@ -141,8 +142,8 @@ Stretch operator*(const Stretch& outer, const Mat3<double>& linear) {
   return {outer.most * size * std::sqrt(squares[2]), outer.least * size * std::sqrt(squares[0])};
 }
 
-/// True if points are so close along an axis that the products of that length and their size have
-/// lost digits: planes through such points lean by more than rounding.
+/// True if points are so close along an axis that products of this length and their size lose
+/// digits. Planes through such points have errors larger than rounding.
 bool loses_digits(const Bounds<double>& bounds) {
   const Vec3<long double> lengths = half_extents_of(bounds);
   constexpr long double least =
@@ -180,7 +181,7 @@ void look_at(const Shape& shape, const Stretch& stretch, Seen& seen) {
         } else if constexpr (std::is_same_v<S, Triangle> || std::is_same_v<S, Segment>) {
           look_at_points(kind, kind.points);
         } else if constexpr (std::is_same_v<S, Rounded>) {
-          // A shape rounded by that radius is at least that thick, however thin its core.
+          // Rounding by a large enough radius makes thin shapes thick enough.
           const double radius = kind.radius;
           const double size = bounds_of(*kind.shape).half_extents().maxCoeff();
           if (radius * most_askew > size) {
@@ -204,7 +205,7 @@ void look_at(const Shape& shape, const Stretch& stretch, Seen& seen) {
           if constexpr (std::is_same_v<S, Superellipsoid>)
             seen.nearly_sharp |= kind.exponent > 1.0 && kind.exponent < 1 + least_above_1;
           const Vec3<long double> lengths = half_lengths_of(kind);
-          // Slanted faces' rims lie askew.
+          // The rims of slanted faces are not along the axes.
           constexpr double most = std::is_same_v<S, CutCylinder> ? most_askew : most_along_axes;
           seen.extreme_operand |= ratio_of(lengths, 0) * stretch.ratio() > most;
           for (const long double length : lengths) seen.add(double(length), stretch);

@@ -9,22 +9,22 @@
 namespace minkray {
 namespace {
 
-/// The largest coordinate over the radius from which on a shape is moved. Up to that, rounding is
-/// little more than that of the shape itself.
+/// Least ratio of the largest coordinate to the radius for which a shape is moved. For smaller
+/// ratios, rounding is little more than that of the shape itself.
 constexpr double far_away = 4.0;
 
-/// The nearer end of a part's extent over its length from which on the part's points are moved:
-/// differences of its points and its middle are exact then (Sterbenz 1974).
+/// Least ratio of a part's distance from the origin to its length, per axis, for which its points
+/// are moved. Differences of its points and its middle are then exact (Sterbenz 1974).
 constexpr double far_part = 0.5;
 
-/// Rounding of the entries of a rotation's matrix that was made of a quaternion.
+/// Rounding of the entries of a rotation matrix that was computed from a quaternion.
 constexpr double turn_rounding = 2.0 * std::numeric_limits<double>::epsilon();
 
 double corner_of(const Bounds<double>& bounds) {
   return bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs()).stableNorm();
 }
 
-/// Vector by which to move a part; zero along axes along which there is nothing to gain.
+/// Vector by which to move a part. Zero along axes for which a move has no benefit.
 template <class S>
 Vec3<double> way_to(const S& shape) {
   const Bounds<double> bounds = bounds_of(shape);
@@ -41,7 +41,7 @@ Vec3<double> moved_back(const Vec3<double>& point, const TwoFoldVec3<double>& wa
   return (TwoFoldVec3<double>(point) - way).rounded();
 }
 
-/// A shape of this kind, `way` nearer to the origin; nothing for kinds that have no place.
+/// Returns the shape moved by -`way`; nothing for kinds without coordinates that can be moved.
 struct MovedBack {
   const TwoFoldVec3<double>& way;
 
@@ -74,7 +74,7 @@ struct MovedBack {
 
 Recentred taken_out(const Shape& shape);
 
-/// A part of a hull as it is seen from `way`; parts that are points remain points.
+/// Returns a part of a hull, relative to `way`. Shapes given by points remain such shapes.
 Shape part_seen_from(const TwoFoldVec3<double>& way, const Shape& part, double& loss) {
   if (std::optional<Shape> nearer = std::visit(MovedBack{way}, part.kind))
     return *std::move(nearer);
@@ -90,7 +90,7 @@ Shape part_seen_from(const TwoFoldVec3<double>& way, const Shape& part, double& 
   return Transform{Nested(std::move(own.shape)), map};
 }
 
-/// Takes translations out, each kind of shape in its own way.
+/// Removes the translations from each kind of shape.
 struct TakenOut {
   const Shape& whole;
 
@@ -134,7 +134,7 @@ struct TakenOut {
     return {std::move(nearer), way, loss};
   }
   Recentred operator()(const Custom&) const { return {whole, {}, 0.0}; }
-  /// Those that have no parts.
+  /// For shapes without operands.
   template <class S>
   Recentred operator()(const S& shape) const {
     const TwoFoldVec3<double> way(way_to(shape));
@@ -194,7 +194,7 @@ double largest_coordinate(const Shape& shape) {
 }
 
 std::optional<Recentred> recentred(const Shape& shape) {
-  if (std::holds_alternative<Custom>(shape.kind)) return {};  // supports may be expensive
+  if (std::holds_alternative<Custom>(shape.kind)) return {};  // support calls may be expensive
   const double radius = bounds_of(shape).half_extents().stableNorm();
   const double largest = largest_coordinate(shape);
   if (!(largest > far_away * radius)) return {};

@@ -9,7 +9,7 @@ namespace {
 
 using Points = std::vector<Vec3<double>>;
 
-/// A support in the frame: m.q = n.(x - origin) for n = axes (m / extents).
+/// A support point in the frame: m.q = n.(x - origin) for the direction n = axes (m / extents).
 struct Support {
   Vec3<double> m;  ///< of unit length
   Vec3<double> q;  ///< the support point
@@ -21,8 +21,8 @@ Support support_in(const RoundFrame& frame, const Shape& shape, const Vec3<doubl
   return {m, frame.to_frame(shape.support(n))};
 }
 
-/// Even directions in the space (or the plane, or the line) that the frame's rank spans, and the
-/// directions of the axes.
+/// Returns evenly spread directions in the space, plane or line of this rank, and the directions of
+/// the axes.
 Points first_directions(int rank, int n) {
   Points directions;
   if (rank == 3) directions = even_directions(n);
@@ -36,8 +36,9 @@ Points first_directions(int rank, int n) {
   return directions;
 }
 
-/// The frame of the shape's support points. A thin shape that lies askew shows its true extents
-/// only to directions that are even in its own frame, so the frame is found again in itself.
+/// Returns the frame of the shape's support points. Directions must be evenly spread in the shape's
+/// own frame to find the true extents of a thin shape, so the frame is computed repeatedly, each
+/// time from directions in the previous one.
 RoundFrame frame_of(const Shape& shape, double flatness) {
   constexpr int directions = 200, rounds = 3;
   RoundFrame frame;
@@ -56,7 +57,7 @@ Vec3<double> corner(const ConvexHull& hull, const Points& points, std::uint32_t 
   return points[hull.vertices[index]];
 }
 
-/// The normals of the facets; of a polygon, of its edges.
+/// Returns the normals of the facets or, for a polygon, of its edges.
 Points facet_normals(const ConvexHull& hull, const Points& points) {
   Points normals;
   for (std::size_t f = 0; f < hull.facets.size(); ++f) {
@@ -95,7 +96,8 @@ Mesh box_mesh(const Vec3<double>& lower, const Vec3<double>& upper) {
   return mesh_of(corners);
 }
 
-/// The vertices of a polygon's half-planes: between neighbouring corners of the dual polygon.
+/// Returns the vertices of an intersection of half-planes. Each vertex is dual to an edge of the
+/// dual polygon.
 Points polygon_vertices(const std::vector<HalfSpace>& half_planes, const Vec3<double>& interior) {
   Points dual;
   for (const HalfSpace& half_plane : half_planes)
@@ -145,7 +147,8 @@ Sandwich sandwich_of(const Shape& shape, const SandwichOptions& options) {
   };
   ask(first_directions(rank, options.directions));
   if (rank == 0) points.push_back(Vec3<double>::Zero());
-  // The mean support point over all directions is the Steiner point, which lies inside.
+  // The centre is the mean support point. Over all directions this is the Steiner point, which is
+  // inside.
   for (const Vec3<double>& q : points) sum += q;
   const Vec3<double> centre = sandwich.centre = sum / static_cast<double>(points.size());
 
@@ -160,8 +163,9 @@ Sandwich sandwich_of(const Shape& shape, const SandwichOptions& options) {
   const ConvexHull first = convex_hull(points);
   ask(facet_normals(first, points));
 
-  // A ball of radius rho about the centre fits in: moving a point of the shape towards the centre
-  // by margin / rho of the way leaves a ball of radius margin around it in the shape.
+  // Shrinks the inner mesh by `margin`. If a ball of radius rho around the centre is inside the
+  // shape, moving a point towards the centre by the fraction margin / rho leaves a ball of radius
+  // `margin` around the point inside the shape.
   const Points& inner_points = points;
   const ConvexHull hull = convex_hull(inner_points);
   double rho = std::numeric_limits<double>::infinity();

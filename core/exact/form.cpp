@@ -12,9 +12,9 @@ namespace minkray::exact {
 
 namespace {
 
-/// Forms with a mantle that is part of a cone: their third size becomes the height of its apex, and
-/// they are turned so that it is above. None, where the apex is too far away or an end too small
-/// for the bounds that docs/forms.md derives.
+/// Prepares forms with a lateral surface that is part of a cone: computes the height of the cone's
+/// apex, and mirrors forms so that the apex is above. Returns no form if the apex is too far away,
+/// or an end too small, for the bounds that docs/forms.md derives.
 Form tapered(Form form) {
   double &lower = form.sizes[0], &upper = form.sizes[1], &half_height = form.sizes[2],
          &apex = form.sizes[3];

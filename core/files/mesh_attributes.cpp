@@ -10,7 +10,7 @@ namespace {
 using Numbers = MeshAttributes::Numbers;
 constexpr std::uint32_t none = MeshAttributes::none;
 
-/// Leaves out triangles whose numbers are not all usable; returns how many had some.
+/// Omits triangles whose numbers are not all usable. Returns how many of these had any numbers.
 template <class IsUsable>
 std::size_t leave_out(std::vector<Numbers>& of, const IsUsable& is_usable) {
   std::size_t bad = 0, left = 0;

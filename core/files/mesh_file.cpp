@@ -26,10 +26,11 @@ constexpr std::size_t stl_header_bytes = 80;
 constexpr std::size_t stl_triangle_bytes = 50;
 constexpr std::size_t stl_corners_offset = 12;
 
-/// More than any mesh worth a convex hull; its vertices take about twice as much memory.
+/// Limit of file sizes, larger than any mesh worth a convex hull. Vertices take about twice this
+/// memory.
 constexpr std::size_t most_bytes = std::size_t{512} << 20;
 
-/// True if the word is the keyword, given in small letters: "VERTEX" is "vertex", too.
+/// True if the word is the keyword in lower or upper case. `keyword` is in lower case.
 bool is_keyword(std::string_view word, std::string_view keyword) {
   return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
                     [](char a, char b) { return (a | 0x20) == b; });
@@ -50,17 +51,17 @@ bool begins_endsolid(std::string_view line) {
          (is_keyword(word, "end") && is_keyword(next_word(line).substr(0, solid.size()), solid));
 }
 
-/// The facets behind a solid's name on the same line, if any. A name may be any words but "facet
-/// normal", keywords and # too.
+/// Returns the facets after a solid's name on the same line, if any. A name may contain keywords
+/// and #, but not the words "facet normal".
 std::string_view behind_name(std::string_view line) {
   while (!line.empty() && !begins_facet(line)) next_word(line);
   return line;
 }
 
-/// There may be several solids, each from its "solid" to its "endsolid". The first line that is
-/// neither blank nor a comment must begin with "solid"; anything but facets may follow between and
-/// behind solids. The corners of a facet are those before the next facet, or before the end of
-/// this one.
+/// Reads one or more solids, each from its "solid" to its "endsolid". The first line that is
+/// neither blank nor a comment must begin with "solid". Between and after solids, anything but
+/// facets may follow. The corners of a facet are those before the next facet, or before its own
+/// end.
 Vertices vertices_of_text_stl(std::string_view text, TriangleFans fans) {
   Vertices vertices;
   std::uint32_t solids_read = 0;
@@ -72,7 +73,7 @@ Vertices vertices_of_text_stl(std::string_view text, TriangleFans fans) {
         throw std::runtime_error(place(line_number) +
                                  "a facet must be between \"solid\" and \"endsolid\"");
       }
-      // At the end of the file even "sol" begins a solid: one that is cut off.
+      // At the end of the file, even "sol" begins a solid: a truncated one.
       const std::string_view word = next_word(line);
       const std::size_t length = text.empty() && line.empty() ? word.size() : solid.size();
       if (word.empty() || !is_keyword(word.substr(0, solid.size()), solid.substr(0, length)))
@@ -80,7 +81,7 @@ Vertices vertices_of_text_stl(std::string_view text, TriangleFans fans) {
       line_of_solid = line_number;
       line = behind_name(line);
     }
-    // Word by word, for some files are a single line.
+    // Reads word by word, since some files are a single line.
     while (line_of_solid != 0) {
       const bool ends = begins_endsolid(line);
       const std::string_view word = next_word(line);
@@ -92,7 +93,7 @@ Vertices vertices_of_text_stl(std::string_view text, TriangleFans fans) {
       if (ends || is_keyword(word, "facet") || is_keyword(word, "endfacet")) fans.end_face();
       if (!ends) continue;
       fans.begin_group(++solids_read);
-      // Facets on the line of an "endsolid" are the next solid's.
+      // Facets on the line of an "endsolid" belong to the next solid.
       line = behind_name(line);
       line_of_solid = line.empty() ? 0 : line_number;
     }
@@ -110,9 +111,9 @@ std::uint32_t little_endian(std::string_view bytes) {
   return value;
 }
 
-/// True if an STL is text. Beginning with "solid" is no test: binary files do so, too. But the
-/// highest byte of their number of triangles is zero, since larger ones are not read, and text
-/// with a facet has no zero that early.
+/// True if an STL file is text. The word "solid" at the beginning decides nothing, since binary
+/// files may have it, too. But in binary files the highest byte of the number of triangles is zero,
+/// since larger files are not read. Text with a facet has no zero byte that early.
 bool is_text_stl(std::string_view bytes) {
   constexpr std::size_t highest_byte = stl_header_bytes + 3;
   if (bytes.size() > highest_byte && bytes[highest_byte] == '\0') return false;
@@ -147,7 +148,7 @@ Vertices vertices_of_binary_stl(std::string_view bytes, TriangleFans fans) {
                              " triangles must have at least " + std::to_string(expected) +
                              " bytes" + got + ")");
   }
-  // Some programs fill up the file behind the triangles.
+  // Some programs append data after the triangles.
   Vertices vertices;
   for (std::size_t triangle = least_bytes; triangle < expected; triangle += stl_triangle_bytes) {
     for (std::size_t i = 0; i < 3; ++i) {

@@ -27,7 +27,7 @@ Parts parts_by(std::span<const std::uint32_t> label_of_triangle,
   return parts;
 }
 
-/// Splits what `read` reads.
+/// Reads a mesh by `read` and splits it.
 template <class Read>
 MeshParts split_by(MeshSplit split, MeshDetail detail, const Read& read) {
   if (split == MeshSplit::none && detail == MeshDetail::vertices) return {read(nullptr, nullptr)};
@@ -45,7 +45,7 @@ MeshParts split_by(MeshSplit split, MeshDetail detail, const Read& read) {
 }  // namespace
 
 Parts components_of(std::span<const Vec3<double>> vertices, std::span<const Corners> triangles) {
-  // Vertices at one place become one.
+  // Merges vertices at the same place.
   std::vector<std::uint32_t> order(vertices.size());
   std::iota(order.begin(), order.end(), 0u);
   const auto key = [&](std::uint32_t i) {

@@ -21,14 +21,14 @@ std::optional<double> next_part(std::string_view& line) {
   return number;
 }
 
-/// Number of values behind each option of a map; "-bm 2 bricks.png" names bricks.png.
+/// Number of values that follow each option of a map: "-bm 2 bricks.png" names bricks.png.
 int values_of_option(std::string_view option) {
   if (option == "-o" || option == "-s" || option == "-t") return 3;
   if (option == "-mm") return 2;
   return 1;
 }
 
-/// Returns the file's name, which may have blanks, behind a map's options.
+/// Returns the file's name, which may contain blanks, after a map's options.
 std::string picture_of(std::string_view line) {
   for (;;) {
     std::string_view rest = line;

@@ -12,14 +12,14 @@ namespace {
 
 using namespace text_file;
 
-/// Numbers the groups of an OBJ, one for each pair of an object's and a group's name. Faces above
-/// the first name have none, as do the faces below a "g" alone.
+/// Numbers the groups of an OBJ file: one per pair of an object's and a group's name. Faces above
+/// the first name have no group, nor do faces below a "g" without a name.
 class ObjGroups {
  public:
   ObjGroups() { number(); }
 
-  /// The number of what is below the keyword, "o" or "g", and its name on the rest of the line,
-  /// which may be several words. An object begins without a group.
+  /// Returns the number of the group that a line begins. `keyword` is "o" or "g"; the name is the
+  /// rest of the line, and may have several words. An object begins without a group.
   std::uint32_t below(std::string_view keyword, std::string_view line) {
     if (keyword == "o") object_.clear();
     group_.clear();
@@ -41,7 +41,7 @@ class ObjGroups {
   std::map<std::pair<std::string, std::string>, std::uint32_t> numbers_;
 };
 
-/// Reads the attributes of an OBJ next to its vertices. Wrong ones are left for settle() to count.
+/// Reads the attributes of an OBJ file. Leaves invalid ones for settle() to count.
 class ObjAttributes {
  public:
   explicit ObjAttributes(TriangleFans& fans) : fans_(&fans), all_(fans.attributes()) {}
@@ -65,7 +65,7 @@ class ObjAttributes {
     }
   }
 
-  /// Reads "/1/2" behind a corner's vertex.
+  /// Reads "/1/2" after a corner's vertex.
   void read(std::string_view rest, FaceCorner& corner) const {
     if (!rest.starts_with('/')) return;
     rest.remove_prefix(1);
@@ -90,7 +90,8 @@ class ObjAttributes {
   }
 
  private:
-  /// A number that is wrong is one that no item has, but not none.
+  /// Returns an index from 0. An invalid number gives an index that no item has, and that is not
+  /// `none`.
   static std::uint32_t number(std::string_view word, std::size_t count) {
     constexpr std::uint32_t wrong = MeshAttributes::none - 1;
     if (word.empty()) return MeshAttributes::none;
@@ -107,14 +108,15 @@ class ObjAttributes {
   std::map<std::string, std::uint32_t> materials_;
 };
 
-/// The vertices that the faces of an OBJ name. Vertices may follow the faces: only at the end is
-/// it known which are missing.
+/// The vertices that the faces of an OBJ file name. Vertices may follow the faces, so missing
+/// vertices are known only at the end.
 class ObjFaces {
  public:
   ObjFaces(TriangleFans& fans, const ObjAttributes& attributes)
       : fans_(&fans), attributes_(&attributes) {}
 
-  /// Takes the words of a face ("7", "7/1", "7//2" or "-1/2/3"), with `count` vertices above it.
+  /// Takes the words of a face ("7", "7/1", "7//2" or "-1/2/3"). `count` is the number of vertices
+  /// above.
   void add(std::string_view line, std::size_t count, std::size_t line_number) {
     for (;;) {
       const std::string_view word = next_word(line);
@@ -134,7 +136,7 @@ class ObjFaces {
         line_of_largest_ = line_number;
       }
       const auto offset = static_cast<std::size_t>(index);
-      // No file is large enough for a vertex beyond 32 bits: an OBJ that names one is refused.
+      // No file can have this many vertices: check() rejects numbers beyond 32 bits.
       FaceCorner corner{.vertex =
                             static_cast<std::uint32_t>(index < 0 ? count + offset : offset - 1)};
       if (attributes_->are_wanted())
@@ -144,7 +146,7 @@ class ObjFaces {
     fans_->end_face();
   }
 
-  /// All faces must find theirs among `count` vertices.
+  /// Checks that all faces name vertices among the first `count`.
   void check(std::size_t count) const {
     if (largest_ == 0 || static_cast<std::size_t>(largest_) <= count) return;
     throw std::runtime_error(place(line_of_largest_) + "a face names vertex " +
@@ -159,7 +161,7 @@ class ObjFaces {
   std::size_t line_of_largest_ = 0;
 };
 
-/// The next line of an OBJ without its comment and the blanks at its end.
+/// Returns the next line of an OBJ file without its comment and the blanks at its end.
 std::string_view next_obj_line(std::string_view& text) {
   std::string_view line = next_line(text);
   line = line.substr(0, line.find('#'));
@@ -183,8 +185,8 @@ std::vector<Vec3<double>> vertices_of_obj(std::string_view text, TriangleFans fa
       fans.begin_group(groups.below(word, line));
     if (attributes.are_wanted() && (word == "usemtl" || word == "mtllib"))
       attributes.take_name(word, line);
-    // A backslash at its end joins the next line, to the keyword alone, too. Only here: the path in
-    // "mtllib C:\a\" does not.
+    // A backslash at the end of a line joins the next line, also if the line is only a keyword. For
+    // other keywords it does not: the path in "mtllib C:\a\" ends with a backslash.
     if (line.empty() && (word == "v\\" || word == "f\\")) {
       line = word.substr(1);
       word.remove_suffix(1);

@@ -26,7 +26,7 @@ const char* kind_of(mode_t mode) {
 }  // namespace
 
 RegularFile::RegularFile(const std::filesystem::path& path)
-    // A pipe without a writer would otherwise already wait here.
+    // Without O_NONBLOCK, opening a pipe that has no writer would wait.
     : descriptor_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC)) {
   if (descriptor_ < 0) fail(errno);
   struct stat status = {};

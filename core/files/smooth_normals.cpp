@@ -10,14 +10,14 @@
 namespace minkray {
 namespace {
 
-/// A triangle at a vertex: its normal, as long as its angle there.
+/// A triangle at a vertex, with its normal and its angle at the vertex.
 struct Wedge {
   std::uint32_t triangle, corner;
   Vec3<double> normal;  ///< of unit length, or zero
   double angle;
 };
 
-/// At a vertex of more triangles all share one normal: comparing each two would take long.
+/// Vertices with more triangles have one normal for all: comparing all pairs would take too long.
 constexpr std::size_t most_compared = 1000;
 
 double angle_between(const Vec3<double>& a, const Vec3<double>& b) {
@@ -29,7 +29,7 @@ double angle_between(const Vec3<double>& a, const Vec3<double>& b) {
 MeshAttributes smooth_normals(std::span<const Vec3<double>> vertices,
                               std::span<const std::array<std::uint32_t, 3>> triangles,
                               double crease) {
-  // The wedges of each vertex lie together.
+  // Groups the wedges by vertex.
   std::vector<std::uint32_t> begin(vertices.size() + 1);
   for (const auto& corners : triangles)
     for (const std::uint32_t vertex : corners) ++begin[vertex + 1];
@@ -61,7 +61,7 @@ MeshAttributes smooth_normals(std::span<const Vec3<double>> vertices,
           if (other.normal.dot(wedge.normal) >= least) sum += other.angle * other.normal;
       }
       const Vec3<float> normal = attribute_normal(sum);
-      // Neighbours mostly have the vertex' last normal.
+      // Reuses the previous normal of the vertex, which is usually the same.
       if (smooth.normals.empty() || &wedge == around.data() || smooth.normals.back() != normal)
         smooth.normals.push_back(normal);
       smooth.normal_of[wedge.triangle][wedge.corner] =
@@ -69,7 +69,7 @@ MeshAttributes smooth_normals(std::span<const Vec3<double>> vertices,
     }
   }
   settle(smooth);
-  // Opposite triangles leave no normal: flat, and no fault of the file.
+  // Opposite triangles give no normal, but this is not an error of the file.
   smooth.bad_normals = 0;
   return smooth;
 }

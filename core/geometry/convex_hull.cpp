@@ -16,14 +16,15 @@ extern "C" {
 namespace minkray {
 namespace {
 
-/// Sets thinner than this times their largest coordinate are flat: coordinates that were once
-/// turned or computed are off their plane by a few roundings of their own size.
+/// Sets thinner than this, relative to their largest coordinate, count as flat: points of a plane
+/// that were rotated or computed are off it by a few roundings of their coordinates.
 constexpr double flat_rounding = 16 * std::numeric_limits<double>::epsilon();
 
-/// Larger coordinates, and those smaller than its inverse, are scaled: Qhull squares lengths.
+/// Coordinates larger than this, or smaller than its inverse, are scaled, since Qhull squares
+/// lengths.
 constexpr double most_in_range = 0x1p200;
 
-/// The point with the largest measure, and that measure.
+/// Returns the index of the point with the largest measure, and the measure.
 template <class Measure>
 std::pair<std::size_t, double> furthest(std::span<const Vec3<double>> points, Measure&& measure) {
   std::pair<std::size_t, double> best = {0, -1.0};
@@ -36,7 +37,7 @@ double twice_area(const Vec3<double>& a, const Vec3<double>& b, const Vec3<doubl
   return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
 }
 
-/// Andrew's monotone chain, counter-clockwise in the plane of x and y.
+/// Returns the hull by Andrew's monotone chain, counter-clockwise in the plane of x and y.
 std::vector<std::uint32_t> polygon_around(std::span<const Vec3<double>> points) {
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0u);
@@ -52,7 +53,7 @@ std::vector<std::uint32_t> polygon_around(std::span<const Vec3<double>> points) 
         chain.pop_back();
       chain.push_back(*i);
     }
-    chain.pop_back();  // the next chain begins with it
+    chain.pop_back();  // the next chain begins with this point
   };
   walk(order.begin(), order.end());
   walk(order.rbegin(), order.rend());
@@ -86,7 +87,7 @@ class QhullRun {
     return {message_, message_size_};
   }
 
-  /// The facets' corners as indices of points, neighbours in order, in either sense of rotation.
+  /// Returns the facets' corners as indices of points, in order around each facet, in either sense.
   Polygons facets() {
     Polygons polygons;
     std::vector<std::uint32_t> corners;
@@ -113,10 +114,10 @@ class QhullRun {
   FILE* message_file_ = nullptr;
 };
 
-/// Options for Qhull, tried in this order until it succeeds on a degenerate set: merging all
-/// facets that are not clearly convex as it goes; merging only those that are concave until the
-/// end, so that none becomes too wide; and on copies of the points that are joggled by some
-/// roundings, or by as much more as it takes.
+/// Options for Qhull, tried in this order until one succeeds on a degenerate set. The first merges
+/// all facets that are not clearly convex at each step. The second merges only concave facets until
+/// the end, so that no facet becomes too wide. The third moves copies of the points at random by
+/// some roundings, or further if necessary.
 constexpr std::array ways_to_ask = {"Pp", "Pp Qx", "Pp QJ1e-14"};
 
 /// Facets of a solid set.
@@ -126,7 +127,7 @@ Polygons solid_facets(std::span<const Vec3<double>> points) {
   for (const Vec3<double>& p : points) coordinates.insert(coordinates.end(), p.begin(), p.end());
   std::string message;
   for (const char* options : ways_to_ask) {
-    std::vector<double> copy = coordinates;  // some options change them
+    std::vector<double> copy = coordinates;  // some options change the coordinates
     QhullRun run(copy, options);
     if (!run.failed()) return run.facets();
     message = run.message();
@@ -151,7 +152,7 @@ RoundFrame round_frame(std::span<const Vec3<double>> points, double flatness) {
                                return (p - points[0]).cwiseAbs().maxCoeff();
                              }).first;
   frame.origin = points[lowest];
-  // Lengths over `size`, so that no square under- or overflows at any scale.
+  // Divides lengths by `size`, so that squares neither underflow nor overflow.
   const double size = furthest(points, [&](const Vec3<double>& p) {
                         return (p - frame.origin).cwiseAbs().maxCoeff();
                       }).second;
@@ -160,10 +161,10 @@ RoundFrame round_frame(std::span<const Vec3<double>> points, double flatness) {
   if (!(size > flat_rounding * largest)) return frame;
   const double thinnest = std::max(flatness, flat_rounding * (largest / size));
 
-  // Gram-Schmidt along the point furthest from the first one, from the line, from the plane.
+  // Gram-Schmidt: each axis leads to the point furthest from the first point, line or plane.
   for (int axis = 0; axis < 3; ++axis) {
-    // Component of a point's position across the axes so far; twice, for the digits the first pass
-    // loses.
+    // Component of a point's position perpendicular to the axes so far. Computed twice, since the
+    // first pass loses digits.
     const auto across = [&](const Vec3<double>& p) {
       Vec3<double> rest = (p - frame.origin) / size;
       for (int pass = 0; pass < 2; ++pass)
@@ -188,7 +189,7 @@ RoundFrame round_frame(std::span<const Vec3<double>> points, double flatness) {
 
 namespace {
 
-/// Differences of the coordinates and their squares must be numbers.
+/// Requires that squares of differences of coordinates are in range.
 ConvexHull hull_in_range(std::span<const Vec3<double>> points) {
   ConvexHull hull;
   hull.frame = round_frame(points);
@@ -196,7 +197,7 @@ ConvexHull hull_in_range(std::span<const Vec3<double>> points) {
   q.reserve(points.size());
   for (const Vec3<double>& p : points) q.push_back(hull.frame.to_frame(p));
 
-  // Facets whose corners are indices of the input.
+  // Finds facets whose corners are indices into the input.
   Polygons facets;
   if (hull.rank() == 0) {
     hull.vertices = {0};
@@ -215,7 +216,7 @@ ConvexHull hull_in_range(std::span<const Vec3<double>> points) {
   std::sort(hull.vertices.begin(), hull.vertices.end());
   hull.vertices.erase(std::unique(hull.vertices.begin(), hull.vertices.end()), hull.vertices.end());
 
-  // The corners become positions in `vertices`, all in the same sense of rotation.
+  // Makes corners indices into `vertices`, in the same sense of rotation for all facets.
   std::vector<std::uint32_t> position(points.size());
   for (std::size_t i = 0; i < hull.vertices.size(); ++i)
     position[hull.vertices[i]] = static_cast<std::uint32_t>(i);

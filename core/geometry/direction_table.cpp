@@ -8,13 +8,14 @@
 namespace minkray {
 namespace {
 
-/// Cells a vertex: more make the lists shorter and the table larger. At 4 the lists of a hull of
-/// 4096 points on an ellipsoid have 2.5 vertices on average, and the table takes 5 times the
-/// points' memory.
+/// Cells per vertex. More cells make the lists shorter and the table larger. With 4, the lists of a
+/// hull of 4096 points on an ellipsoid have 2.5 vertices on average, and the table takes 5 times
+/// the points' memory.
 constexpr double cells_per_vertex = 4;
 
-/// Float finds a direction's cell up to a few roundings, and Qhull a vertex' neighbours up to a few
-/// of double: cells and cones are widened by this, relative to the cube map's half width 1.
+/// Width by which cells and cones are widened, relative to the cube map's half width 1. Float finds
+/// a direction's cell only up to a few roundings, and Qhull finds a vertex' neighbours only up to a
+/// few roundings of double.
 constexpr double widening = 16 * std::numeric_limits<float>::epsilon();
 
 /// Lists for each vertex the vertices at the other end of its edges, one list after the other.
@@ -56,8 +57,8 @@ struct Square {
   }
 };
 
-/// True if the normal cone of a vertex meets the square: the square is clipped by the half-plane
-/// of every edge, as Sutherland and Hodgman (1974) do.
+/// True if the normal cone of a vertex meets the square. Clips the square by the half-plane of each
+/// edge (Sutherland and Hodgman, 1974).
 class ConeInSquare {
  public:
   bool operator()(const Square& square, std::span<const Vec3<double>> q, std::uint32_t vertex,
@@ -89,7 +90,7 @@ class ConeInSquare {
 
 DirectionTable::DirectionTable(const ConvexHull& hull, std::span<const Vec3<double>> vertices)
     : directions_(cells_per_vertex * static_cast<double>(vertices.size())) {
-  // Only the extents' ratios matter to a direction; at most 1, they overflow at no scale.
+  // Only the ratios of the extents matter. With extents of at most 1, directions do not overflow.
   const Vec3<double> extents = hull.frame.extents / hull.frame.extents.maxCoeff();
   to_frame_ = extents.asDiagonal() * hull.frame.axes.transpose();
   begin_.reserve(directions_.cells() + 1);
@@ -108,7 +109,7 @@ DirectionTable::DirectionTable(const ConvexHull& hull, std::span<const Vec3<doub
     return vertex;
   };
 
-  std::vector<std::size_t> seen_in(vertices.size(), 0);  // the last cell + 1 that visited it
+  std::vector<std::size_t> seen_in(vertices.size(), 0);  // 1 + the last cell that visited it
   ConeInSquare meets;
   std::uint32_t start = 0;
   for (std::size_t cell = 0; cell < directions_.cells(); ++cell) {
@@ -117,8 +118,8 @@ DirectionTable::DirectionTable(const ConvexHull& hull, std::span<const Vec3<doub
     const double u1 = u + width + widening, v1 = v + width + widening;
     const Square square{axis, sign, {Eigen::Vector2d(u0, v0), {u1, v0}, {u1, v1}, {u0, v1}}};
 
-    // From the support point of the cell's middle outwards: the cones that meet a convex cell hang
-    // together by edges.
+    // Searches from the support point of the cell's middle, along edges: vertices whose cones meet
+    // a convex cell are connected by edges.
     start = climb(start, square.direction({u + width / 2, v + width / 2}));
     lists_.push_back(start);
     seen_in[start] = cell + 1;
@@ -129,7 +130,7 @@ DirectionTable::DirectionTable(const ConvexHull& hull, std::span<const Vec3<doub
         if (meets(square, q, other, neighbours[other])) lists_.push_back(other);
       }
     }
-    // Ascending, as a scan of all vertices would meet them.
+    // Sorts the list in the order of a scan of all vertices.
     std::sort(lists_.begin() + begin_.back(), lists_.end());
     begin_.push_back(static_cast<std::uint32_t>(lists_.size()));
   }

@@ -7,10 +7,11 @@
 namespace minkray {
 namespace {
 
-/// Cells of the cube map a facet: at 4 a walk over a sphere's hull takes two facets on average.
+/// Cells of the cube map per facet. With 4, a walk over a sphere's hull takes two facets on
+/// average.
 constexpr double cells_per_facet = 4;
 
-/// More would leave the cache and save no steps.
+/// Limit of cells. More cells would not fit in the cache, and would save no steps.
 constexpr double most_cells = 6 * 64 * 64;
 
 }  // namespace
@@ -72,7 +73,7 @@ void FacetMesh::link_neighbours(std::span<const std::array<std::uint32_t, 3>> co
       const std::uint32_t a = corners[f][k], b = corners[f][(k + 1) % 3];
       edges.push_back({std::min(a, b), std::max(a, b), f, k});
       facets_[f].numbers_[Facet::neighbours + k] =
-          static_cast<double>(f);  // until its neighbour is found
+          static_cast<double>(f);  // replaced when the neighbour is found
     }
   }
   std::sort(edges.begin(), edges.end());
@@ -99,8 +100,9 @@ void FacetMesh::fill_cube_map() {
   const auto cell_of = [&](const Vec3<double>& direction) {
     return static_cast<std::size_t>(directions_.cell_of(direction));
   };
-  // From the cells that normals are in to all others, uphill in each; uphill alone would stop on
-  // sides of several facets.
+  // Fills cells, beginning with those that contain normals, and then their neighbours. In each
+  // cell, climbs to the facet whose normal is nearest. From a distance, climbing alone would stop
+  // on sides with several facets.
   std::vector<std::size_t> reached;
   const auto reach = [&](std::size_t cell, std::uint32_t facet) {
     if (facing_[cell] != none) return;

@@ -26,7 +26,8 @@ exact::Form rounded_polytope(const Rounded& shape, const Vec3<double>& ball_cent
       shape.shape->kind);
 }
 
-/// Declared form of an inner shape; for one brought to unit size, that of the shape within.
+/// Returns the closed form of an inner shape. A shape scaled to about unit size is a Transform;
+/// uses the scaled form of the shape inside it.
 exact::Form exact_form_of(const Shape& inner, const Vec3<double>& ball_centre) {
   const auto* resized = std::get_if<Transform>(&inner.kind);
   const double down = resized ? double(resized->map.affine().linear(0, 0)) : 1;
@@ -48,7 +49,7 @@ exact::Form exact_form_of(const Shape& inner, const Vec3<double>& ball_centre) {
       shape.kind);
 }
 
-/// Rounded hulls and triangles may be rounded by next to nothing.
+/// Rounded hulls and triangles count as shapes with corners, since their radius may be tiny.
 double uncertain_slope_of(ModelKind model, FormKind form) {
   const bool has_faces = form == FormKind::polytope || form == FormKind::triangle;
   const bool is_round = form == FormKind::ball || form == FormKind::ellipsoid ||
@@ -60,8 +61,8 @@ double uncertain_slope_of(ModelKind model, FormKind form) {
   return is_round ? tolerance::uncertain_smooth_slope<double> : tolerance::uncertain_slope<double>;
 }
 
-/// A Transform that holds no shape: bounds are computed for as many poses as there are instances,
-/// and sharing a shape among threads costs more than its supports.
+/// A shape under a map, without a Transform object. Bounds are computed once per instance, and a
+/// shared pointer to the shape would cost more than its support points.
 struct Posed {
   const Shape& shape;
   AffineMap map;
@@ -71,7 +72,7 @@ struct Posed {
   }
 };
 
-/// The outer map under a pose; either is mostly none.
+/// The outer map under a pose. Usually at least one of the two is the identity.
 TwoFoldMat3<double> linear_under(const Affine<double>& pose, const TwoFoldMat3<double>& outer) {
   if (outer.is_identity()) return pose.linear;
   return pose.linear == Mat3<double>::Identity() ? outer : TwoFoldMat3<double>(pose.linear) * outer;
@@ -104,8 +105,8 @@ ShapeDefinition::ShapeDefinition(Shape shape) : original_(shape), inner_(std::mo
     take_off();
   }
   Bounds<double> bounds = minkray::bounds_of(inner_);
-  // Very small and very large shapes are brought to about unit size by a power of two, which is
-  // exact: solvers multiply up to four lengths, and must not leave the range of double.
+  // Very small and very large shapes are scaled to about unit size, exactly, by a power of two.
+  // Solvers multiply up to four lengths, and products must stay in the range of double.
   const double size = bounds.half_extents().maxCoeff();
   if (size > 0.0 && !(size >= 1.0 / tolerance::ordinary_size<double> &&
                       size <= tolerance::ordinary_size<double>)) {
@@ -116,8 +117,8 @@ ShapeDefinition::ShapeDefinition(Shape shape) : original_(shape), inner_(std::mo
   }
   ball_ = ball_around(bounds);
   middle_ = moved_ + outer_ * TwoFoldVec3<double>(ball_.centre * up_);
-  if (!(ball_.radius > 0.0)) outer_ = {};       // no map matters to a point
-  const bool is_point = !(ball_.radius > 0.0);  // a point is given by its place alone
+  if (!(ball_.radius > 0.0)) outer_ = {};       // linear maps do not change a point
+  const bool is_point = !(ball_.radius > 0.0);  // only the position of a point matters
   support_loss_ = is_point ? 0.0
                            : tolerance::support_rounding<double> *
                                  std::max(largest_coordinate(inner_) - ball_.radius, 0.0);
@@ -138,7 +139,7 @@ ShapeDefinition::ShapeDefinition(Shape shape) : original_(shape), inner_(std::mo
   uncertain_slope_ = uncertain_slope_of(model_, form_.kind);
 }
 
-/// Takes bounds about the shape's middle first: these are rounded by the shape's size alone.
+/// Computes bounds relative to the shape's middle first, so that rounding is relative to its size.
 Bounds<double> ShapeDefinition::bounds_of(const Affine<double>& pose) const {
   const Mat3<double> linear = linear_under(pose, outer_).high * up_;
   const Bounds<double> about_middle = minkray::bounds_of(

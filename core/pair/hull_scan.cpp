@@ -11,7 +11,7 @@ namespace {
 
 constexpr int lanes = 8;
 
-/// Lane i has seen the points i, i + 8, ... and keeps the first of the best.
+/// Lane i has the first of the best among the points i, i + 8, ...
 int best_of_lanes(const double* reach, const double* index) {
   int best = 0;
   for (int i = 1; i < lanes; ++i)
@@ -52,14 +52,14 @@ int scan(const ShapeCore& hull, double x, double y, double z) {
       best[half] = _mm256_max_pd(r, best[half]);
     }
   }
-  // The first lane that has the most, as best_of_lanes finds it.
+  // Returns the same lane as best_of_lanes: the first lane with the maximum.
   __m256d most = _mm256_max_pd(best[0], best[1]);
   most = _mm256_max_pd(most, _mm256_permute2f128_pd(most, most, 1));
   most = _mm256_max_pd(most, _mm256_permute_pd(most, 5));
   const int first = _mm256_movemask_pd(_mm256_cmp_pd(best[0], most, _CMP_EQ_OQ)),
             second = _mm256_movemask_pd(_mm256_cmp_pd(best[1], most, _CMP_EQ_OQ));
   const unsigned mask = static_cast<unsigned>(first | second << 4);
-  if (mask == 0) return 0;  // not numbers
+  if (mask == 0) return 0;  // all are NaN
   alignas(32) double at[lanes];
   for (int half = 0; half < 2; ++half) _mm256_store_pd(at + 4 * half, index[half]);
   const int lane = __builtin_ctz(mask);

@@ -16,7 +16,7 @@ bool is_sharp_at_box(const ShapeCore& core, const Vec3<double>& point, double of
   return faces > 1;
 }
 
-/// On a rim, or at the tip of a cone.
+/// True if the point is on a rim, or at the tip of a cone.
 bool is_sharp_at_disks(const ShapeCore& core, const Vec3<double>& point, double off) {
   const double across = std::sqrt(point.x() * point.x() + point.y() * point.y());
   const auto is_at = [&](double rim, double z) {
@@ -25,7 +25,7 @@ bool is_sharp_at_disks(const ShapeCore& core, const Vec3<double>& point, double 
   return is_at(core.size.x(), -core.size.z()) || is_at(core.size.y(), core.size.z());
 }
 
-/// True if the viewpoint of the three corners is outside of their triangle or on its rim.
+/// True if the origin of three corners' coordinates is outside their triangle or on its rim.
 bool is_on_rim(const std::vector<PlaneCorner>& corners, double near) {
   int left = 0, right = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -38,8 +38,8 @@ bool is_on_rim(const std::vector<PlaneCorner>& corners, double near) {
   return left < 3 && right < 3;
 }
 
-/// The hull's points that lie in the plane, seen from the point: it is inside their polygon, or on
-/// its rim.
+/// Uses the hull's points in the plane through `point`. `point` is sharp unless it is inside their
+/// polygon.
 bool is_sharp_at_hull(const ShapeCore& core, const Vec3<double>& point, const Vec3<double>& n,
                       double off) {
   const double near = off + flat_face * core.ball;

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// No point of the body is faster.
+/// Upper bound of the speed of the body's points.
 double speed_of(const ContactShape& shape, const RigidMotion& motion) {
   return motion.velocity.norm() +
          motion.angular_velocity.norm() * (shape.ball_radius() + shape.offset());
@@ -22,7 +22,7 @@ Mat3<double> turn_at(const RigidMotion& motion, double time) {
   return turning.at(time).linear;
 }
 
-/// Error of a speed by a turn; 0 for a body that does not turn, even if `error` is infinite.
+/// Error of a speed due to a turn; 0 for a body that does not turn, even if `error` is infinite.
 double by_speed(double speed, double error) {
   return speed > 0 ? speed * error : 0;
 }
@@ -44,7 +44,7 @@ PairDerivativeError error_of(const ContactShape& a, const RigidMotion& motion_a,
   const double time = found.t_lo, slowness = derivative.b.by_velocity.norm();
   if (derivative.is_ridge || !(slowness > 0) || !std::isfinite(slowness)) return error;
 
-  // Finds the contact at t_lo, and how far the bodies get until they touch for sure.
+  // Finds the contact at t_lo, and bounds the motion until the bodies certainly touch.
   const Affine<double> pose_a = motion_a.at(time), pose_b = motion_b.at(time);
   const SignedDistance nearest = signed_distance(a, pose_a, b, pose_b, for_derivatives());
   if (nearest.is_unknown() || !std::isfinite(nearest.upper)) return error;

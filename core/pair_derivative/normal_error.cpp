@@ -13,17 +13,17 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double rounding = 16 * epsilon;  // of a normal
+constexpr double rounding = 16 * epsilon;  // rounding of a normal
 
-/// Compares n with the direction of `way`, which is known to `off`.
+/// Compares n with the direction of `way`, whose error is at most `off`.
 double by_direction(const Vec3<double>& way, const Vec3<double>& n, double off) {
   const double length = way.norm();
   if (!(length > off)) return infinity;
   return (way / length - n).norm() + off / (length - off) + rounding;
 }
 
-/// Uses that the grown core holds a ball of the core's radius that touches the surface at the true
-/// point, and that no point is above the plane through the support point.
+/// Uses two facts. The grown core contains a ball of the core's radius that touches the surface at
+/// the true point. No point is above the plane through the support point.
 double by_support(const ShapeCore& core, const Vec3<double>& foot, const Vec3<double>& n,
                   double off) {
   const double furthest = n.dot(support_of_core<CoreKind::other>(core, n).point);
@@ -31,8 +31,8 @@ double by_support(const ShapeCore& core, const Vec3<double>& foot, const Vec3<do
   return std::sqrt(2 * (std::max(gap, 0.0) + off) / core.radius) + rounding;
 }
 
-/// Uses that no corner of the face under `foot` is above the plane across the true normal. That
-/// plane goes through a point of the hull no further than `off` from `foot`.
+/// Uses that no corner of the face under `foot` is above the plane perpendicular to the true normal
+/// through a certain point of the hull. That point is within `off` of `foot`.
 double on_face(const ShapeCore& core, const Vec3<double>& foot, const Vec3<double>& n, double off) {
   const double near = off + flat_face * core.ball;
   double lowest = infinity, highest = -infinity;
@@ -49,7 +49,7 @@ double on_face(const ShapeCore& core, const Vec3<double>& foot, const Vec3<doubl
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const PlaneCorner &a = corners[i], &b = corners[i + 1 < corners.size() ? i + 1 : 0];
     const double length = std::hypot(b.x - a.x, b.y - a.y);
-    // Copies fill a hull's points up.
+    // Skips the copies that fill up a hull's points.
     if (length > 0) inner = std::min(inner, (a.x * b.y - a.y * b.x) / length);
   }
   const double free = inner - off;
@@ -86,7 +86,7 @@ double of_box(const ShapeCore& core, const Vec3<double>& point, const Vec3<doubl
   return (std::copysign(1.0, n[face]) * Vec3<double>::Unit(face) - n).norm() + rounding;
 }
 
-/// A core of disks has three sides in the half plane through its axis and the point.
+/// In the half plane through its axis and the point, a core of disks has three sides.
 double of_disks(const ShapeCore& core, const Vec3<double>& point, const Vec3<double>& n,
                 double off) {
   struct Place {
@@ -116,7 +116,7 @@ double of_disks(const ShapeCore& core, const Vec3<double>& point, const Vec3<dou
   bool is_on[3];
   for (int i = 0; i < 3; ++i) is_on[i] = way_to(feet[i]).norm() <= off;
   if (is_on[2] == (is_on[0] || is_on[1])) {
-    // A disk has its two faces in one place.
+    // The two faces of a disk coincide.
     if (!is_on[2] || height > 0) return infinity;
   }
   if (!is_on[2] || !(height > 0))
@@ -127,8 +127,8 @@ double of_disks(const ShapeCore& core, const Vec3<double>& point, const Vec3<dou
   return (own - n).norm() + slope * off / (across - off) + rounding;
 }
 
-/// The normal is the direction of the gradient p/a^2, whose error is `off` over the square of the
-/// least radius.
+/// The normal is the direction of the gradient p/a^2. The gradient's error is at most `off` divided
+/// by the square of the least radius.
 double of_ellipsoid(const ShapeCore& core, const Vec3<double>& point, const Vec3<double>& n,
                     double off) {
   const double least = core.size.minCoeff();

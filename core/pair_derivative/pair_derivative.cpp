@@ -19,31 +19,31 @@ PairDerivative unknown(bool is_ridge) {
   return {{nans, nans}, {nans, nans}, is_ridge};
 }
 
-/// Angle by which the normal may lean, if a step of that length along it is between bounds this
-/// far apart.
+/// Largest angle between the computed normal and the true one, for a distance `length` whose bounds
+/// are `interval` apart.
 double tilt_of(double interval, double length) {
   constexpr double most = 1e-3;
-  constexpr double least = 1e-12;  // rounding of a direction turned to a body's frame, and more
+  constexpr double least = 1e-12;  // includes the rounding of a direction rotated to a body's frame
   const double tilt = std::sqrt(2 * interval / length);
-  return tilt < most ? std::max(tilt, least) : most;  // NaN, too
+  return tilt < most ? std::max(tilt, least) : most;  // `most` for NaN, too
 }
 
 bool has_flat_parts(const ShapeCore& core) {
   return core.kind != CoreKind::point && core.kind != CoreKind::ellipsoid;
 }
 
-/// Slow cores are those whose points are all visited.
+/// True for cores whose support mapping visits all points.
 bool is_slow(const ShapeCore& core) {
   return core.kind == CoreKind::hull || core.kind == CoreKind::other;
 }
 
-/// A direction of the world in the frame of the shape's core.
+/// Rotates a direction of the world to the frame of the shape's core.
 Vec3<double> in_core(const ContactShape& shape, const Mat3<double>& linear, const Vec3<double>& d) {
   const Vec3<double> own = linear.transpose() * d;
   return shape.is_turned() ? Vec3<double>(shape.turn().transpose() * own) : own;
 }
 
-/// True if the bodies may touch each other in more than a point when they are moved together.
+/// True if the bodies, moved together along the normal, may touch in more than a point.
 bool have_many_points(const ContactShape& a, const Mat3<double>& linear_a, const ContactShape& b,
                       const Mat3<double>& linear_b, const Vec3<double>& normal, double interval,
                       double length) {
@@ -58,16 +58,16 @@ bool have_many_points(const ContactShape& a, const Mat3<double>& linear_a, const
   if (of_b.dimension == 0) return false;
   if (of_a.dimension == 2 || of_b.dimension == 2) return true;
   const Mat3<double> turn_a = turn_in_world(a, linear_a), turn_b = turn_in_world(b, linear_b);
-  // Two edges have one common point, unless they are as good as parallel: at the end of the shorter
-  // one the gap has grown by less than the bounds are apart.
+  // Two edges have one common point, unless they are nearly parallel: the gap then grows by less
+  // than the interval of the bounds up to the end of the shorter edge.
   const double sine = (turn_a * of_a.along).cross(turn_b * of_b.along).norm();
   const double shorter = std::min(of_a.length, of_b.length);
   return sine <= tilt || sine * shorter <= std::sqrt(2 * interval * length);
 }
 
-/// Angle by which other directions of the depth may lean, infinite if they may be any. Deeper along
-/// the normal by `step` sizes, all others are better than it: the depth is a concave function of
-/// B's place.
+/// Largest angle between the normal and other directions of least depth; `not_known` if they may be
+/// any. Moves B deeper along the normal by `step` sizes. Then the depth along the normal grows
+/// most, so other directions become better.
 double tilt_of_depth(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                      const Affine<double>& pose_b, const SignedDistance& found, double step,
                      double tolerance) {
@@ -78,11 +78,12 @@ double tilt_of_depth(const ContactShape& a, const Affine<double>& pose_a, const 
   how.tolerance = tolerance;
   const SignedDistance there =
       signed_distance(a, pose_a.linear, b, pose_b.linear, deeper, how, nullptr);
-  const double lean = (there.upper - (found.lower - way)) / way;  // 1 less a cosine
+  const double lean = (there.upper - (found.lower - way)) / way;  // 1 - cosine of the angle
   return lean <= leaning ? std::sqrt(2 * std::max(lean, 0.0)) : not_known;
 }
 
-/// Separates directions that are nearly as deep by a short step, which takes longest.
+/// Same with a long step first. A short step separates directions of nearly the same depth, but
+/// takes longer.
 double tilt_of_depth(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                      const Affine<double>& pose_b, const SignedDistance& found) {
   constexpr double rounded = 1.01;
@@ -93,8 +94,8 @@ double tilt_of_depth(const ContactShape& a, const Affine<double>& pose_a, const 
   return rounded * tilt;
 }
 
-/// True if the normal that was found may lean by more than derivatives should: of shapes known by
-/// their support mapping only, and of those that nearly touch and have no closed form.
+/// True if the normal may be less accurate than derivatives require. This is so for shapes known
+/// only by their support mapping, and for shapes that nearly touch and have no closed form.
 bool may_be_rough(const ShapeCore& a, const ShapeCore& b, double interval, double between_cores) {
   if (a.kind == CoreKind::other || b.kind == CoreKind::other) return true;
   constexpr double precise = 1e-6;
@@ -109,14 +110,14 @@ TwistDerivative of_point(const Vec3<double>& weight, const Vec3<double>& arm) {
   return {weight, arm.cross(weight)};
 }
 
-/// The turn by a rotation vector.
+/// Rotation matrix of a rotation vector.
 Mat3<double> turned_by(const Vec3<double>& rotation) {
   const double angle = rotation.norm();
   if (!(angle > 0)) return Mat3<double>::Identity();
   return Eigen::AngleAxis<double>(angle, rotation / angle).toRotationMatrix();
 }
 
-/// The contact of the cores that was found, as precise as it can be had.
+/// Returns the contact of the cores, made more accurate if `is_rough`.
 CoreContact contact_of(const CoresInWorld& cores, const Vec3<double>& middle,
                        const SignedDistance& found, bool is_rough) {
   const double radii = cores.a.radius + cores.b.radius;
@@ -152,7 +153,7 @@ PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a
   const CoreContact contact = contact_of(cores, middle, found, is_rough);
   const Vec3<double> origin_a = pose_a.translation - middle, origin_b = pose_b.translation - middle;
   if (is_rough) {
-    // Radii do not matter to arms across the normal.
+    // Derivatives do not change if the points move along the normal, by the radii.
     derivative.a = of_point(-contact.normal, contact.a - origin_a);
     derivative.b = of_point(contact.normal, contact.a + contact.c - origin_b);
   }
@@ -177,7 +178,7 @@ PairDerivative derivative_at_half_space(const Vec3<double>& origin, const Contac
   if (found.is_unknown()) return unknown(true);
   PairDerivative derivative{of_point(-found.normal, found.point_a - origin),
                             of_point(found.normal, found.point_b - pose_b.translation)};
-  // The normal is known to rounding.
+  // Error bound of the normal, due to rounding.
   constexpr double tilt = 64 * std::numeric_limits<double>::epsilon();
   const Vec3<double> down = in_core(b, pose_b.linear, -found.normal);
   derivative.is_ridge = flat_part(b.core(), down, tilt).dimension > 0;
@@ -207,15 +208,15 @@ PairDerivative derivative_of(const ContactShape& a, const RigidMotion& motion_a,
   const double closing = found.normal.dot(velocity_a - velocity_b);
   const Mat3<double> turn_a = turned_by(time * motion_a.angular_velocity),
                      turn_b = turned_by(time * motion_b.angular_velocity);
-  // A turn of the body at time 0 acts later about an axis that has turned with it.
+  // If a body is turned at time 0, the axis of this turn rotates with the body until the contact.
   const auto back = [&](TwistDerivative derivative, const Mat3<double>& turn) {
     derivative.by_turn = turn.transpose() * derivative.by_turn;
     return derivative;
   };
   PairDerivative derivative{back(of_point(-found.normal / closing, arm_a), turn_a),
                             back(of_point(found.normal / closing, arm_b), turn_b)};
-  constexpr double grazing = 1e-6;  // of the points' speeds: less is no approach to speak of
-  constexpr double known = 1e-12;   // of the sizes: what the normal of a contact is known to
+  constexpr double grazing = 1e-6;  // relative to the points' speeds; a slower approach is grazing
+  constexpr double known = 1e-12;   // error bound of the normal, relative to the sizes
   const double size = a.ball_radius() + b.ball_radius();
   derivative.is_ridge =
       !(closing > grazing * (velocity_a.norm() + velocity_b.norm())) ||

@@ -12,10 +12,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Place of a core's true nearest point, if the true normal leans by `tilt` at most.
+/// Bounds the position of a core's true nearest point, if the true normal leans by at most `tilt`.
 struct Slide {
-  double any = infinity;  ///< distance from the support point at most
-  FlatPart flat;          ///< an edge on which it is, but for `beside`
+  double any = infinity;  ///< largest distance from the support point
+  FlatPart flat;          ///< an edge that the point lies on, up to `beside`
   double beside = infinity;
 };
 
@@ -34,7 +34,7 @@ Slide slide_of(const ShapeCore& core, const Vec3<double>& d, double tilt) {
     slide.any = by_curvature(largest * largest, core.size.cwiseProduct(d).norm() - tilt * largest);
     return slide;
   }
-  constexpr double rounding = 1e-12;  // of directions that were turned to the body's frame
+  constexpr double rounding = 1e-12;  // rounding of directions rotated to the body's frame
   slide.flat = flat_part(core, d, tilt + rounding);
   double around = 0;
   if (core.kind == CoreKind::disks) {
@@ -52,16 +52,15 @@ Slide slide_of(const ShapeCore& core, const Vec3<double>& d, double tilt) {
   return slide;
 }
 
-/// Error of the direction from a core to a point, both in the core's frame: the normal of the core
-/// grown by the distance.
+/// Error of n as the direction from a core to a point, both in the core's frame: as the normal of
+/// the core grown by `length`.
 double tilt_over(ShapeCore core, const Vec3<double>& point, const Vec3<double>& n, double length,
                  double off) {
   core.radius = length;
   return normal_error_at(core, point, n, off);
 }
 
-/// Two edges that cross: how far the points that are nearest may be from those along them that lead
-/// to `to_a` and `to_b`.
+/// Two edges that cross: bounds of the distances of the true nearest points from `to_a` and `to_b`.
 struct Crossing {
   double a = infinity, b = infinity;
 };
@@ -79,7 +78,7 @@ Crossing on_edges(const Vec3<double>& u, const Vec3<double>& to_a, double beside
 }
 
 /// True if the nearest point is between the ends of a straight edge. The support point is one of
-/// them, but a hull's edge may continue behind it.
+/// the ends, but a hull's edge may continue beyond it.
 bool is_between_ends(const ShapeCore& core, const Slide& slide, double at, double off) {
   if (core.kind != CoreKind::hull && core.kind != CoreKind::other) at = std::abs(at);
   return slide.beside == 0 && at > off && at < slide.flat.length - off;
@@ -102,8 +101,9 @@ PairDerivativeError error_of(const CoresInWorld& cores, const CoreContact& conta
   double low = height - rounding - drift.way, high = found.upper + radii + drift.way;
   double tilt = depth_tilt, aside = infinity;
   if (low > 0) {
-    // Between a plane and a point, and by how much the support point is aside: projections onto a
-    // convex body are no further apart than what is projected.
+    // The distance is between that of a plane and that of two points. `aside` bounds the distance
+    // of the true c from height * n: projections onto a convex body are no further apart than the
+    // points that are projected.
     high = std::max(high, low);
     aside = (c - height * n).norm() + rounding + drift.way + slide_by_drift(cores.a, down_a) +
             slide_by_drift(cores.b, down_b);
@@ -119,7 +119,7 @@ PairDerivativeError error_of(const CoresInWorld& cores, const CoreContact& conta
   const Vec3<double> point_b = contact.a + contact.c;
   const Vec3<double> to_a = contact.a - s_a, to_b = point_b - s_b;
   if (low > 0) {
-    // A corner is a point over the other core.
+    // If a core touches with a corner, the normal is that of the other core at this corner.
     const double moved = high - low + rounding + drift.way + drift.turn * high;
     if (b.any == 0)
       tilt = std::min(tilt, drift.turn + tilt_over(cores.a, cores.turn_a.transpose() * s_b, down_a,
@@ -129,7 +129,7 @@ PairDerivativeError error_of(const CoresInWorld& cores, const CoreContact& conta
           tilt, drift.turn + tilt_over(cores.b, cores.turn_b.transpose() * (s_a - cores.between.x),
                                        down_b, height, moved));
   }
-  // The true c is no further from `height` times n.
+  // Bounds the distance of the true c from height * n.
   const auto off_by = [&](double lean) {
     if (low > 0) return std::min(aside, high - low + high * lean) + drift.way;
     return std::max(std::abs(high - height), std::abs(low - height)) + std::abs(low) * lean;
@@ -141,7 +141,8 @@ PairDerivativeError error_of(const CoresInWorld& cores, const CoreContact& conta
       return on_edges(u, to_a, a.beside, v, to_b, b.beside, c - height * n, off_by(tilt), drift);
     };
     crossing = cross();
-    // Between the ends of both the normal is across them.
+    // If both nearest points are between the ends of their edges, the normal is perpendicular to
+    // both.
     if (low > 0 && is_between_ends(cores.a, a, u.dot(to_a), crossing.a) &&
         is_between_ends(cores.b, b, v.dot(to_b), crossing.b)) {
       const Vec3<double> across = u.cross(v);
@@ -154,7 +155,7 @@ PairDerivativeError error_of(const CoresInWorld& cores, const CoreContact& conta
   tilt += 8 * epsilon;
   const double off = off_by(tilt);
   double of_a = to_a.norm() + a.any, of_b = to_b.norm() + b.any;
-  // One of them leads to the other.
+  // A bound for the point of one body gives a bound for that of the other.
   of_a = std::min({of_a, (contact.a - (s_b - height * n)).norm() + b.any + off, crossing.a});
   of_b = std::min({of_b, (point_b - (s_a + height * n)).norm() + a.any + off, crossing.b});
   const double far =
@@ -170,7 +171,7 @@ PairDerivativeError error_at_half_space(const ShapeCore& core_b, const Vec3<doub
                                         const Drift& drift) {
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   tilt += drift.turn;
-  // The radius is along the normal, and adds nothing to an arm across it.
+  // The radius is along the normal, and does not change the arm perpendicular to the normal.
   const double slide = slide_of(core_b, down, tilt).any;
   const double rounding =
       core_rounding * core_b.ball +

@@ -14,13 +14,13 @@ CoreContact contact_along(const CoresInWorld& cores, const Vec3<double>& n) {
   return {n, a, cores.support_b(-n) - a};
 }
 
-/// The part of c across the normal: zero where the points are nearest.
+/// The part of c perpendicular to the normal; zero if the points are nearest.
 Vec3<double> aside(const CoreContact& contact) {
   return contact.c - contact.normal.dot(contact.c) * contact.normal;
 }
 
-/// Newton's method for the direction whose support point lies along it, with a finite-difference
-/// derivative: exact to rounding where both surfaces are smooth and curved.
+/// Newton's method for the normal n for which c is parallel to n, with a finite-difference
+/// derivative. Accurate to rounding where both surfaces are smooth and curved.
 bool by_newton(const CoresInWorld& cores, CoreContact& contact) {
   constexpr double step = 1e-5, furthest = 1e-3;
   constexpr int most_turns = 8;
@@ -34,7 +34,7 @@ bool by_newton(const CoresInWorld& cores, CoreContact& contact) {
   const Vec3<double> by_u = slope(u), by_v = slope(v);
   const double uu = by_u.dot(u), uv = by_v.dot(u), vu = by_u.dot(v), vv = by_v.dot(v);
   const double determinant = uu * vv - uv * vu;
-  // Both eigenvalues are negative at a least distance, or a depth.
+  // At a least distance or a depth, both eigenvalues are negative.
   if (!(determinant > 0) || !(uu + vv < 0)) return false;
   double least = from.norm();
   const double first = least;
@@ -60,8 +60,8 @@ struct Vertex {
   Vec3<double> c, a;
 };
 
-/// The simplex' point nearest to the origin, with the normals of slim triangles by their shortest
-/// side; keeps the vertices that carry it. Zero if the origin is within.
+/// A simplex that finds its point nearest to the origin, and keeps the vertices that carry this
+/// point. Computes the normals of slim triangles with their shortest side.
 class SlimSimplex {
  public:
   void add(const Vertex& vertex) { vertices_[count_++] = vertex; }
@@ -135,7 +135,7 @@ class SlimSimplex {
   Vertex nearest_;
 };
 
-/// GJK from the normal that was found: its last digits are those of the slim triangles.
+/// Runs GJK from the given normal. Slim triangles determine the last digits of the normal.
 void by_gjk(const CoresInWorld& cores, double slack, CoreContact& contact) {
   constexpr int most_turns = 60, most_stalls = 3;
   const double scale = cores.size() + cores.between.x.norm();
@@ -181,7 +181,8 @@ Vec3<double> CoresInWorld::support_b(const Vec3<double>& n) const {
 void sharpen(const CoresInWorld& cores, CoreContact& contact) {
   if (by_newton(cores, contact)) return;
   if (!(contact.normal.dot(contact.c) > 0)) return;
-  // Solvers that know a core's kind are better than this, but where they fail.
+  // If both kinds are known, the previous result usually is more accurate; GJK must be clearly
+  // better.
   const bool is_known = cores.a.kind != CoreKind::other && cores.b.kind != CoreKind::other;
   by_gjk(cores, is_known ? 8 * epsilon * (cores.size() + cores.between.x.norm()) : 0, contact);
 }

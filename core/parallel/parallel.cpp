@@ -18,13 +18,13 @@
 namespace minkray {
 namespace {
 
-/// Arenas that no thread is in. Kept, since oneTBB (2021.8 was measured) does not give back the 8
-/// KiB of an arena that had workers: a program that casts a batch of rays a million times would
-/// have lost 8 GB. For the same reason no thread's own, implicit arena gets work: a thread that
-/// ends takes it along.
+/// Arenas that no thread uses, kept for reuse. oneTBB (2021.8) does not free the 8 KiB of an arena
+/// that had workers, so a program that casts a batch of rays a million times would lose 8 GB. For
+/// the same reason, no work runs in the implicit arena of a thread, which is lost when the thread
+/// ends.
 class Arenas {
  public:
-  /// Calls `work` in one that no other thread has called into.
+  /// Calls `work` in an arena that no other thread has called into.
   void execute(int threads, const std::function<void()>& work) {
     Arena arena = take(threads);
     struct Guard {
@@ -55,16 +55,17 @@ class Arenas {
   }
 
   std::mutex mutex_;
-  std::map<int, std::vector<Arena>> idle_;  ///< by their number of threads; 0: one per core
+  std::map<int, std::vector<Arena>> idle_;  ///< by number of threads; 0: one per core
 };
 
-/// Never destroyed: threads may still be at work when the program ends.
+/// Never destroyed, since threads may still work when the program ends.
 Arenas& arenas() {
   static auto& kept = *new Arenas;
   return kept;
 }
 
-/// True if this thread called into one of the arenas; workers have not, but are in it.
+/// True if this thread called into one of the arenas. False for workers, which are in an arena,
+/// too.
 thread_local bool has_called = false;
 
 void in_arena(int threads, const std::function<void()>& work) {
@@ -77,7 +78,7 @@ void in_arena(int threads, const std::function<void()>& work) {
   });
 }
 
-/// Calls `work` where this thread is if that is an arena, or else in one.
+/// Calls `work` in the arena of this thread or, if there is none, in one of the idle arenas.
 void in_some_arena(const std::function<void()>& work) {
   const bool is_worker = tbb::this_task_arena::current_thread_index() > 0;
   if (has_called || is_worker) return work();
@@ -123,8 +124,8 @@ void pipeline_of_any(std::size_t most, const std::function<std::shared_ptr<void>
                                      }) &
             tbb::make_filter<Item, Item>(tbb::filter_mode::parallel,
                                          [&](Item item) {
-                                           // Else a thread that waits within its work might
-                                           // read, and wait for another item.
+                                           // Otherwise a thread that waits in `work` might read
+                                           // another item, and wait for that.
                                            tbb::this_task_arena::isolate([&] { work(item.get()); });
                                            return item;
                                          }) &

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// parallel.h without oneTBB, for ThreadSanitizer, which does not see what Debian's library does:
-// here it sees all of it. Threads are started for each parallel_for, which costs too much for other
-// builds.
+// Implements parallel.h without oneTBB for ThreadSanitizer, which cannot check Debian's library.
+// Starts threads for each parallel_for, which would be too slow for other builds.
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
@@ -16,10 +15,10 @@
 namespace minkray {
 namespace {
 
-/// More than one on any machine: races are looked for.
+/// Several threads on any machine, so that races are found.
 constexpr int fewest_threads = 4;
 
-/// The threads that work on one with_threads.
+/// The threads of one call of with_threads.
 struct Team {
   explicit Team(int threads) : count(threads), idle(threads - 1) {}
 
@@ -69,7 +68,7 @@ class FirstException {
   std::exception_ptr exception_;
 };
 
-/// Calls work() here, and at once on as many of the team's idle threads, but at most `helpers`.
+/// Calls work() in this thread and, at the same time, in up to `helpers` idle threads of the team.
 void on_team(Team& team, std::size_t helpers, const std::function<void()>& work) {
   std::vector<std::thread> threads;
   while (threads.size() < helpers && team.take_one())
@@ -86,8 +85,8 @@ int one_per_core() {
   return std::max(fewest_threads, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-/// The index ranges of one parallel_for, taken by any free thread. Every atomic is relaxed: ranges
-/// of different threads must not look ordered, since oneTBB does not promise that.
+/// The index ranges of one parallel_for, taken by any free thread. All atomic operations are
+/// relaxed: ThreadSanitizer must not assume an order of ranges that oneTBB does not guarantee.
 class Ranges {
  public:
   Ranges(std::size_t count, std::size_t grain,
@@ -143,9 +142,9 @@ void pipeline_of_any(std::size_t most, const std::function<std::shared_ptr<void>
     return with_threads(one_per_core(), [&] { pipeline_of_any(most, read, work, write); });
   std::mutex reading, writing;
   std::condition_variable written;
-  bool at_end = false;  // both by `reading`
+  bool at_end = false;  // guarded by `reading`, as is read_count
   std::size_t read_count = 0;
-  std::size_t written_count = 0;  // by `writing`
+  std::size_t written_count = 0;  // guarded by `writing`
   FirstException exception;
   on_team(*team_here, most - 1, [&] {
     while (!exception.failed()) {
@@ -166,7 +165,7 @@ void pipeline_of_any(std::size_t most, const std::function<std::shared_ptr<void>
         write(item.get());
         ++written_count;
       } catch (...) {
-        const std::lock_guard lock(writing);  // no thread is between checking and waiting
+        const std::lock_guard lock(writing);  // so that no waiting thread misses the change
         exception.take();
       }
       written.notify_all();

@@ -8,7 +8,7 @@
 namespace minkray {
 namespace {
 
-/// Numbers of a node and its child must fit in a box's number, and none of them equals `whole`.
+/// A box number contains the numbers of a node and of a child; none of these equals `whole`.
 static_assert(bvh_width == 8 && EightBoxes::most == 8);
 
 /// Half extents about the shape's middle, along the axes of its frame.
@@ -33,7 +33,7 @@ BodyTree::BodyTree(const PartsBody& body) : body_(body), middle_(middle_of(body)
     slabs_ = &mesh()->slabs();
     whole_ = about_middle(mesh()->bounds());
     radius_ = whole_.half.norm();
-    // Boxes of floats are larger than a mesh of the least size.
+    // Boxes of floats may be larger than a mesh of the least size.
     const BvhNode& root = mesh()->bvh().nodes[0];
     for (int i = 0; i < bvh_width && root.children[i] != BvhNode::none; ++i) {
       const MiddleBox box = about_middle(root.box(i));

@@ -6,7 +6,8 @@
 namespace minkray::exact {
 namespace {
 
-/// Every plane is measured at every point: more would take longer than a second to prepare.
+/// Limit of points. Each plane is tested against each point, which would take over a second for
+/// more.
 constexpr std::size_t most_points = 4096;
 
 }  // namespace

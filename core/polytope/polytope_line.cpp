@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A single line over a polytope.
+// Finds where a single line enters a polytope.
 #include "core/polytope/polytope.h"
 #include "core/polytope/polytope_rounded.h"
 
@@ -12,7 +12,7 @@ Entry<double> enter_tables<double>(const PolytopeTables& polytope, const Line<do
                                  : enter_planes(polytope, line, open);
 }
 
-/// Over flat and slender polytopes the way from feature to feature may lead round in circles.
+/// Called if the walk fails: on flat and slender polytopes it may go in circles.
 Entry<double> enter_any_feature(const PolytopeTables& of, const Line<double>& line) {
   constexpr std::size_t most_half_edges = 384;  // three for each of 128 triangles
   const std::size_t count = of.origin.size();

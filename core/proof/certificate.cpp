@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Certificates of hits, misses and origins inside: what the finder found, the best of several ways.
+// Makes certificates of hits, misses and origins inside: tries several ways and keeps the best.
 #include "core/proof/certificate.h"
 
 #include <cmath>
@@ -18,7 +18,8 @@ struct Candidate {
       std::numeric_limits<double>::infinity();  ///< distance of its point from the required place
   Certificate certificate;
 
-  /// Keeps what the finder holds if it is better; where that has no plane, n is one.
+  /// Keeps the finder's certificate if it is better. If it has no plane, its plane gets the normal
+  /// n.
   void take(double other_off, const Vec3<double>& n, Finder& finder) {
     if (finder.certificate.plane.isZero(0)) finder.certificate.plane = n;
     if (!(other_off < off)) return;
@@ -32,7 +33,7 @@ struct Candidate {
   }
 };
 
-/// A unit direction to begin with.
+/// Returns the unit vector with which the search begins.
 Vec3<double> first_direction(const Claim& claim, const Vec3<double>& towards) {
   Vec3<double> normal = unit(claim.normal);
   if (normal.allFinite() && normal.squaredNorm() > 0) return normal;
@@ -40,11 +41,11 @@ Vec3<double> first_direction(const Claim& claim, const Vec3<double>& towards) {
   return other.squaredNorm() > 0 ? other : Vec3<double>::UnitX();
 }
 
-/// A hit with the normal n at lambda, as claimed. First the hit is found again, which gives the
-/// tightest bounds. If rounding decides what is hit (rays that just touch, or run in a face)
-/// another hit may be found; then a point of the shape at the claimed point is the proof, or on
-/// the ray as little beyond it as rounding divided by the plane's slope. Last, if the ray cast
-/// ended off the shape: a point around those that it had reached.
+/// Proves a hit with the normal n. First casts the ray again, which gives the tightest bounds. If
+/// rounding decides what is hit (for rays that just touch, or run in a face), this may find another
+/// hit. The proof is then a point of the shape at the claimed point, or slightly beyond it on the
+/// ray: by rounding divided by the plane's slope. If the ray cast ended outside the shape, last
+/// tries the points that it had reached.
 void certify_hit(Finder& finder, const Claim& claim, const Vec3<double>& n) {
   const NearSegment& near = finder.near();
   const double claimed = near.lambda_of(claim.t_base, claim.t_offset);
@@ -96,7 +97,7 @@ Certificate certify(const SupportFunction& support, const Ray<double>& ray, cons
     const double origin = near.lambda_of(0, 0);
     Candidate best;
     best.take(finder.nearest(origin, origin, n, separating), separating, finder);
-    // On the surface, where the search comes to a point of a rim or a seam but slowly.
+    // The search converges slowly if the origin is on a rim or a seam of the surface.
     if (!(best.off <= tolerance::proof_good_enough * finder.rounding()))
       best.take(finder.refine(origin, separating), separating, finder);
     best.give(finder);

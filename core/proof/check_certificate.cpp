@@ -7,7 +7,7 @@
 namespace minkray {
 namespace {
 
-/// Others have no unit vector that is worked out with their square.
+/// True if the vector can be normalised by its squared length.
 bool is_direction(const Vec3<double>& n) {
   return is_ordinary_square(n.squaredNorm());
 }
@@ -51,12 +51,12 @@ class Checker {
   void complain(std::string_view text) {
     if (verdict_.complaint.empty()) verdict_.complaint = text;
   }
-  /// NaN is not allowed either.
+  /// Fails for NaN, too.
   void expect_at_most(double value, std::string_view otherwise) {
     if (!(value <= verdict_.allowed)) complain(otherwise);
   }
 
-  /// The support function in a unit direction, seen from the centre.
+  /// The support function in a unit direction, relative to the centre.
   double support_function(const Vec3<double>& n) const { return n.dot(support_(n) - near_.centre); }
 
   /// The point of the shape that the certificate's support points span.
@@ -74,7 +74,7 @@ class Checker {
     return sum > 0 && std::isfinite(sum) && q.allFinite();
   }
 
-  /// The ray comes to a plane that it crosses at `lambda` no earlier than that less this.
+  /// Rounding of the parameter at which the ray crosses a plane of this slope.
   double rounding_along(double slope) const { return rounding_ / std::abs(slope); }
 
   void check_hit() {
@@ -82,7 +82,7 @@ class Checker {
     const Vec3<double> hit_point = near_.at(lambda);
     double lower = std::max(near_.first, near_.lambda_of(0, 0)), earliest = lower;
 
-    // The claimed plane touches the shape and holds the claimed point; the ray comes from outside.
+    // The claimed plane must touch the shape and contain the claimed point, and face the ray.
     if (!is_direction(claim_.normal)) return complain("a hit without a normal");
     const Vec3<double> n = claim_.normal.normalized();
     const double above = n.dot(hit_point) - support_function(n), slope = n.dot(near_.r);
@@ -97,12 +97,12 @@ class Checker {
       complain("the hit lies beyond t_max");
     if (!(lambda - near_.lambda_of(0, 0) >= -verdict_.allowed))
       complain("the hit lies before the ray");
-    // Planes along the ray do not locate a point on it.
+    // Planes along the ray do not determine a point on it, so the point must be near the shape.
     if (!(lambda >= near_.begin - verdict_.allowed && lambda <= near_.end + verdict_.allowed))
       complain("the hit lies before or behind the shape");
     expect_at_most(std::abs(above), "the hit point is not on the plane of its normal");
 
-    // The proven plane: nothing of the shape lies before it.
+    // The plane of the certificate: no point of the shape is above it.
     double depth_above = -std::numeric_limits<double>::infinity();
     Vec3<double> q;
     const bool spans = spanned_point(q);
@@ -123,7 +123,7 @@ class Checker {
     verdict_.claim_error = std::max(verdict_.claim_error, depth_above);
     if (depth_above > verdict_.allowed) complain("the hit point lies outside the shape");
 
-    // The spanned point: on the ray, and not deep under the plane.
+    // The spanned point must be on the ray, and not far below the plane.
     if (!spans) return complain("no support points");
     const double at_q = near_.r.dot(q - near_.s);
     verdict_.lateral = (q - near_.at(at_q)).norm();
@@ -133,8 +133,9 @@ class Checker {
         !(at_q <= near_.lambda_of(ray_.t_max, 0) + verdict_.allowed))
       complain("the support points span no point of the ray");
     verdict_.offset_spanned = near_.t_offset(at_q);
-    // The shape's surface bends away from its plane: allows twice the plane's own distance, up to
-    // the shape's end.
+    // If the spanned point is not exactly on the ray, the ray may enter later: at most by this
+    // distance / slope if the surface were the plane. Allows twice that, since the surface bends
+    // away from its plane, but no more than to the shape's end.
     const double beside = 2 * (verdict_.lateral + rounding_) / least_slope;
     const double latest = std::max(lower, at_q);
     const double end = std::max(latest, near_.end) + rounding_;
@@ -154,7 +155,7 @@ class Checker {
 
   void check_miss() {
     verdict_.margin = near_.begin - near_.end;
-    if (verdict_.margin > 0) return;  // all of the ray lies outside the planes across it
+    if (verdict_.margin > 0) return;  // the ray is outside the planes perpendicular to it
     if (!is_direction(certificate_.plane)) return complain("a miss without a plane");
     const Vec3<double> n = certificate_.plane.normalized();
     verdict_.margin =
@@ -167,7 +168,7 @@ class Checker {
   const Claim& claim_;
   const Certificate& certificate_;
   NearSegment near_;
-  double rounding_;  ///< across a plane: of what is worked out here, whatever the claim's precision
+  double rounding_;  ///< rounding of this checker across a plane, for any claim
   CertificateVerdict verdict_;
 };
 

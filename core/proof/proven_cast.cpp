@@ -37,7 +37,7 @@ ProvenCast proven(const Shape& shape, const Ball<double>& ball, const RayNearBal
     claim.t_offset = std::clamp(spanned, 0.0, ray.t_max);
     verdict = check_certificate(support, ray, claim, certificate);
     if (verdict.holds) {
-      // Displacement along the ray that corresponds to the point's distance from the ray and the
+      // Bounds the displacement along the ray due to the point's distance from the ray and the
       // plane's rounding.
       const double along =
           (verdict.lateral + tolerance::plane_rounding<double> * size + near.loss) / slope;

@@ -30,7 +30,7 @@ bool has_lanes(FormKind kind) {
   }
 }
 
-/// The least radius of what is round.
+/// Least radius of the round parts of a form.
 double least_round(const exact::Form& form) {
   const auto& a = form.sizes;
   switch (form.kind) {
@@ -77,7 +77,7 @@ ScreenForm screen_form(const exact::Form& form, const Vec3<double>& centre) {
   return screen;
 }
 
-/// Polytopes of more planes are screened by their box.
+/// Limit of planes: larger polytopes are screened by their box.
 constexpr std::size_t most_planes = 128;
 
 std::shared_ptr<const std::vector<float>> planes_of(const exact::Polytope& polytope) {

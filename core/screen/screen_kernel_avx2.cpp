@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-// Everything here has internal linkage or the type of the lanes in its name: see core/math/wide.h.
+// All functions have internal linkage or the lanes' type in their name (core/math/wide.h explains
+// why).
 #include "core/screen/form_in_lanes.h"
 
 #if defined(__AVX2__)
 namespace minkray {
 namespace {
 
-/// A ray near a form, in the frame of its instance.
+/// A ray near a form, and the map to the instance's frame.
 struct Seen {
-  Vec3<W> near, d;  ///< from the centre, in the world
+  Vec3<W> near, d;  ///< point relative to the centre, direction; both in the world
   W k, d_squared;   ///< the parameter of `near`
   Mat3<W> map;
 };
@@ -33,8 +34,9 @@ template <FormKind kind>
   line.inv = W(1) / line.dd;
   const W rest = -p.dot(d) * line.inv;
   line.s = p + d * rest;
-  // |M| times the lengths of the point, of the step to the closest one, and of the form's own size
-  // along the line, before the map.
+  // `before` sums the squared lengths, before the map, of the point, of the step to the closest
+  // point, and of the form's own size along the line. `reach` multiplies its root by the map's
+  // norm.
   const W before = near.squaredNorm() + (rest * rest + form.R * form.R * line.inv) * d_squared;
   const W reach = sqrt(W(3) * map.squaredNorm() * before);
   line.E = W(tolerance::screen_rounding) * (largest_scale * reach + form.extent);
@@ -53,7 +55,7 @@ template <FormKind kind>
   const W infinity(std::numeric_limits<float>::infinity());
   const Mask<W> sure = entry.hit & (lo >= W(0)), behind = entry.hit & (hi < W(0));
   Mask<W> miss = entry.miss & bounded;
-  // Rays that begin at a shape leave it: its other side is behind them as well.
+  // If a ray begins on a shape and leaves it, the shape's far side is behind the ray, too.
   if (any(behind)) {
     const exact::Entry<W> exit = enter_again<kind>(form, line.reversed(), behind);
     miss |= exit.hit & (k + (rest - exit.t) + slack_of(exit) < W(0));
@@ -69,12 +71,12 @@ template <FormKind kind>
   look<kind>(seen, form, first, last);
   first.store(answers.first.data());
   last.store(answers.last.data());
-  // Infinity is not below infinity.
+  // Infinite bounds set no bit, even if the limit is infinite.
   return {lane_bits((first <= limit) & (first < W(std::numeric_limits<float>::infinity()))),
           lane_bits(last <= limit & (last < W(std::numeric_limits<float>::infinity())))};
 }
 
-/// Polytopes in the lanes, one definition after the other.
+/// Screens the polytopes of the lanes, one definition after the other.
 [[gnu::noinline]] ScreenBits look_at_polytopes(const Seen& seen,
                                                const Screen* const (&screens)[screen_lanes],
                                                const W& limits, Screened& answers) {
@@ -163,7 +165,7 @@ ScreenBits screen_avx2(FormKind kind, const ScreenList& list, const std::uint32_
 #else
 namespace minkray {
 
-/// Never called on other machines.
+/// Never called on machines without AVX2.
 ScreenBits screen_avx2(FormKind, const ScreenList&, const std::uint32_t*, const std::uint32_t*,
                        Screened&) {
   return {0, 0};

@@ -9,7 +9,7 @@ SupportSource::~SupportSource() = default;
 
 namespace {
 
-/// Neither zero nor what is no number is handed on.
+/// Normalises directions. Zero and NaN become the x axis.
 void make_units(std::size_t count, Coordinates* directions) {
   for (std::size_t i = 0; i < count; ++i) {
     Coordinates& n = directions[i];

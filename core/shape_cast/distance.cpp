@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Connects the distance algorithm to the shapes, in 3D and in the plane.
+// Applies the distance algorithm to shapes, in 3D and in the plane.
 #include "core/shape_cast/distance.h"
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 namespace minkray {
 namespace {
 
-/// The supports of a flat shape in the plane z = 0, which of any other are its shadow's.
+/// Support point in 3D or, in 2D, of the shape's projection to the plane z = 0.
 template <int Dim>
 Vec<double, Dim> support_in(const Shape& shape, const Vec<double, Dim>& v) {
   Vec3<double> direction = Vec3<double>::Zero();
@@ -17,7 +17,7 @@ Vec<double, Dim> support_in(const Shape& shape, const Vec<double, Dim>& v) {
   return shape.support(direction).template head<Dim>();
 }
 
-/// Passes the iteration to the observer, with lengths in another unit.
+/// Passes the iteration to the observer, with all lengths multiplied by `unit`.
 template <int Dim>
 void tell_in(double unit, const DistanceIteration<double, Dim>& iteration,
              const std::function<void(const DistanceIteration<double, Dim>&)>& observer) {
@@ -32,13 +32,14 @@ void tell_in(double unit, const DistanceIteration<double, Dim>& iteration,
             unit * iteration.upper, before, after});
 }
 
-/// A unit in which squares of lengths are numbers: a power of two, which rounds nothing.
+/// Returns a unit of length for which squares of lengths are in range. Scaling by it, a power of
+/// two, is exact.
 double unit_for(double largest) {
   constexpr double least = std::numeric_limits<double>::min();
   return largest < least ? least : leading_power_of_two(largest);
 }
 
-/// Computes in numbers of type F; the shapes' supports are of type double.
+/// Computes in numbers of type F; the shapes' support points have type double.
 template <class F, int Dim>
 DistanceResult<double, Dim> solve(
     const CentredShape& a, const CentredShape& b, const DistanceOptions<double, Dim>& options,
@@ -49,7 +50,7 @@ DistanceResult<double, Dim> solve(
   if (!std::isfinite(largest)) return {};
   const double unit = unit_for(largest);
   const auto supports = [&](const Vec<F, Dim>& v) {
-    // A direction in the range of double.
+    // Scales the direction to the range of double.
     const Vec<double, Dim> n =
         (std::is_same_v<F, double> ? v : Vec<F, Dim>(v / v.cwiseAbs().maxCoeff()))
             .template cast<double>();
@@ -88,8 +89,8 @@ DistanceResult<double, Dim> solve(
           found.backups};
 }
 
-/// True if rounding ended the loop before its two bounds met: curved surfaces near each other make
-/// simplices that are slivers.
+/// True if rounding ended the loop before its two bounds met. This happens for curved surfaces near
+/// each other, since their simplices are slivers.
 bool is_coarse(const DistanceResult<double, 3>& result, double size) {
   if (result.status == DistanceStatus::overlapping) return false;
   const double rounding = tolerance::distance_gap<double> * (result.distance + size);
@@ -108,7 +109,7 @@ DistanceResult<double, 3> distance_between(const CentredShape& a, const CentredS
   if (!was_free || subalgorithm != SubalgorithmKind::projection ||
       !is_coarse(result, a.radius + b.radius))
     return result;
-  // Once more from its answer, with the supports as they are, but more digits for their simplices.
+  // Runs again from this result, with more digits for the simplices but not for support points.
   DistanceOptions<double, 3> from_there = options;
   from_there.v0 = result.axis;
   DistanceResult<double, 3> finer = solve<long double, 3>(a, b, from_there, subalgorithm, {});

@@ -9,14 +9,14 @@
 namespace minkray {
 namespace {
 
-/// The orientation in the middle of the step, the position at its beginning.
+/// The body with the orientation of the middle of the step and the position of its beginning.
 CentredShape frozen(const MovingBody& body, double begin, double middle) {
   Affine<double> pose = pose_at(body, middle);
   pose.translation = body.pose.translation + begin * body.velocity;
   return centred(body.shape, pose);
 }
 
-/// The distance from the pivot to the body's furthest point, or a little more.
+/// Upper bound of the distance from the pivot to the body's furthest point.
 double radius_about_pivot(const MovingBody& body) {
   const CentredShape placed = centred(body.shape, body.pose);
   return length_of<double>(placed.centre - body.pose.translation) + placed.radius;
@@ -58,7 +58,7 @@ RotatingCastResult cast_rotating(const MovingBody& a, const MovingBody& b, doubl
       const ShapeCastResult early = cast_shape(PreparedPair(grown, B), relative, step, options);
       result.iterations += early.cast.iterations;
       result.supports += early.cast.supports;
-      if (early.cast.status == Status::miss) continue;  // and then the smaller one misses too
+      if (early.cast.status == Status::miss) continue;  // the shape that is not grown misses, too
       lower_found = true;
       result.t_lo = early.cast.found() ? begin + early.cast.t() : begin;
     }
@@ -72,8 +72,8 @@ RotatingCastResult cast_rotating(const MovingBody& a, const MovingBody& b, doubl
     result.point_a = now.point_a + now.cast.t() * a.velocity;
     result.point_b = now.point_b + now.cast.t() * a.velocity;
     result.normal = now.cast.normal;
-    // The orientation changed at once, and the bodies were in each other: the plane was between
-    // them before that.
+    // If a change of orientation makes the bodies overlap at once, the normal is that of a plane
+    // between them just before.
     if (result.status == Status::hit && result.normal.isZero(0)) {
       const double before = begin - step / 2.0;
       const CentredShape A_before = frozen(a, begin, before), B_before = frozen(b, begin, before);

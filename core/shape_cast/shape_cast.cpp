@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shape cast, and where the two shapes touch at its end.
+// Casts shapes, and finds where they touch at the time of impact.
 #include "core/shape_cast/shape_cast.h"
 
 #include "core/pair_distance/signed_distance.h"
@@ -8,15 +8,14 @@
 namespace minkray {
 namespace {
 
-/// Finds the contact: the closest points of the two at the time of impact. At that time they
-/// touch, and a simplex around a common point on the boundary is as flat as rounding makes it; so
-/// B is taken back along the normal by a rounding error, and by more where that leaves them
-/// touching still. Where they graze each other, the distance query may end with points that are
-/// not the closest: points that are further apart than its steps explain are computed by the
-/// signed distance.
+/// Finds the contact: the closest points of the two shapes at the time of impact. The shapes then
+/// touch, and a simplex around a common point is flat up to rounding. So B is moved back along the
+/// normal by a rounding error, and further if the shapes still touch. For grazing contacts, the
+/// distance query may end with points that are not the closest. If the points are further apart
+/// than the moves of B explain, the signed distance gives the points.
 void find_contact(const PreparedPair& pair, const Vec3<double>& direction,
                   ShapeCastResult& result) {
-  // Relative to A's centre, where t_base alone would take B far off: first back, then on.
+  // Adds t_base first, which brings B near A. All positions are relative to A's centre.
   CentredShape a = pair.a(), b = pair.b();
   const Vec3<double> world_a = a.centre;
   Vec3<double> offset = b.centre - world_a;
