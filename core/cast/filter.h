@@ -67,7 +67,7 @@ template <bool leaves, class W, class Placed>
   const W first = leaves ? W(-near.end) : near.begin, last = leaves ? W(-near.begin) : near.end;
   exact::Entry<W> entry = exact::enter<W>(form, line, open & near.bounded);
 
-  // The normal of a plane that proves a miss is perpendicular to the line; this removes rounding.
+  // A plane that proves a miss is parallel to the line, up to rounding. Corrects its normal.
   if (any(entry.miss)) {
     const W towards = entry.normal.dot(line.d) * line.inv;
     entry.normal = select<W>(entry.miss, Vec3<W>(entry.normal - line.d * towards), entry.normal);

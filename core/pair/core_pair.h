@@ -97,8 +97,8 @@ struct CoreSearch {
   double apart = std::numeric_limits<double>::infinity();
   int max_turns = 200;
   bool may_slide = true;  ///< allows second-order steps on curved surfaces (sliding_features.h)
-  /// If not null, the search starts from this state (unless that is empty), and stores its final
-  /// state there.
+  /// If not null, the search starts from this state if there is one, and stores its final state
+  /// there.
   PairMemory* memory = nullptr;
 };
 

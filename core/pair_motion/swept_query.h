@@ -130,9 +130,9 @@ struct SweptQuery {
           std::abs(area) > sliver * size * reach))
       return false;
     const double of_r = at_r / area, of_s = at_s / area, of_t = at_t / area;
-    // The weights of a thin triangle give a point slightly off the origin. This is corrected along
-    // the triangle's plane. Rounding also moves the points sideways, which changes the height in
-    // proportion to the plane's steepness.
+    // The weights of a thin triangle give a point slightly off the origin, so the height is
+    // corrected along the triangle's plane. Rounding also moves the points sideways, which changes
+    // the height in proportion to the plane's steepness.
     const double p1 = s.p - r.p, q1 = s.q - r.q, h1 = s.h - r.h, p2 = t.p - r.p, q2 = t.q - r.q,
                  h2 = t.h - r.h, across = p1 * q2 - q1 * p2;
     const double rise_p = (h1 * q2 - q1 * h2) / across, rise_q = (p1 * h2 - h1 * p2) / across;

@@ -9,9 +9,9 @@ namespace minkray {
 /// v is the normal of a supporting plane that separates the shape from the ray beyond its point x
 /// (v.r >= 0). `behind` is the normal of a second supporting plane, which the ray crosses at x or
 /// before, and which separates the shape from the ray before x (behind.r < 0). A weighted sum of
-/// the two normals is perpendicular to the ray, and a plane with this normal separates shape and
-/// ray: at x the height above the first plane is positive and that above the second is not
-/// negative, and their weighted sum is constant along the ray.
+/// the two normals is perpendicular to the ray, and gives a plane that separates shape and ray. At
+/// x, the height above the first plane is positive, and the height above the second is not
+/// negative. The weighted sum of the heights is constant along the ray.
 template <class T>
 Vec3<T> joined_plane(const Vec3<T>& v, const Vec3<T>& behind, const Vec3<T>& r) {
   const T v_r = v.dot(r), behind_r = behind.dot(r);

@@ -158,7 +158,7 @@ template <class W, class Centre>
   near.s = along(close, more_steps);
   const W per_length = W(1) / length;
   near.r = direction * per_length;
-  near.t_base = steps * second * first;  // in this order, finite if the product is
+  near.t_base = steps * second * first;  // in this order, finite if the product is finite
   near.t_shift = more_steps * second * first;
   near.t_per_length = second * per_length * first;
   near.lambda_min = -steps * length - more_steps * length;

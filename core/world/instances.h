@@ -25,7 +25,7 @@
 
 namespace minkray {
 
-/// Index that means "no instance": as a result, a miss; as the instance to skip, skip none.
+/// Index that means "no instance". As a result: a miss. As the instance to skip: skip none.
 inline constexpr std::uint32_t no_instance = std::numeric_limits<std::uint32_t>::max();
 
 /// Kinds of rays, one bit each; the caller defines their meaning.
@@ -55,7 +55,7 @@ class Instances {
   void add_many(std::uint32_t definition, std::size_t count,
                 const std::function<Affine<double>(std::size_t)>& pose_of);
 
-  /// Removes the instances whose index is at least `count`; they must have shapes.
+  /// Removes all instances from index `count` on, which must have shapes.
   void truncate(std::size_t count);
 
   /// Moves one instance, which must not be a half-space. Its box is stale until pose_all.
@@ -67,8 +67,8 @@ class Instances {
     are_boxes_stale_ = true;
   }
 
-  /// Returns the pose of an instance exactly as given. Available for meshes, and for shapes that
-  /// are not a Transform and have a pose that keeps lengths; nullopt for other instances.
+  /// Returns the pose of an instance exactly as given; nullopt if it was not kept. Poses are kept
+  /// for meshes, and for shapes that are not a Transform and have a pose that keeps lengths.
   std::optional<Affine<double>> plain_pose(std::size_t i) const;
 
   /// Shows the i-th instance to rays of these kinds only. Call after all instances are added.
@@ -102,7 +102,7 @@ class Instances {
   Vec3<double> turned(std::size_t i, const Vec3<double>& direction, double time) const {
     return movements_.empty() ? direction : movements_[i].turned(direction, time);
   }
-  /// Converts the result of a cast to the world; the cast's ray is from seen_by().
+  /// Converts the result of a cast with a ray from seen_by() to the world.
   CastResult<double> turned(std::size_t i, CastResult<double> cast, double time) const {
     if (!movements_.empty()) cast.normal = movements_[i].turned(cast.normal, time);
     return cast;
@@ -186,8 +186,8 @@ class Instances {
   const std::vector<InstanceBody>& bodies() const { return bodies_; }
   const Screen* screens() const { return screens_.data(); }
 
-  /// Returns the kind of closed form that all shapes share that any ray can hit. Returns
-  /// FormKind::none if kinds differ, or if a shape is not exactly its closed form.
+  /// Returns the kind of closed form of all shapes that some ray can hit. Returns FormKind::none if
+  /// these kinds differ, or if a shape is not exactly its closed form.
   FormKind kind_of_all() const;
 
   [[gnu::always_inline]] void prefetch(std::size_t i) const { __builtin_prefetch(&places_[i]); }

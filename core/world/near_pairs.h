@@ -15,7 +15,7 @@ namespace minkray {
 
 struct ContactBody {
   ContactShape shape;
-  Affine<double> pose;  ///< rigid, to the world
+  Affine<double> pose;  ///< rigid; from the body's frame to the world
   /// Two bodies form a pair only if each body's mask shares a bit with the other's category.
   std::uint32_t category = 1;
   std::uint32_t mask = ~std::uint32_t{0};
@@ -54,7 +54,7 @@ struct NearPair {
 
 struct NearPairsOptions {
   double at_most = 0;  ///< omits pairs further apart; 0: returns only pairs that overlap or touch
-  /// Optional filter, in addition to masks: returns false for pairs to skip, such as allowed pairs.
+  /// Optional filter, in addition to masks: returns false for pairs to skip.
   std::function<bool(std::size_t a, std::size_t b)> wanted;
   double tolerance = SignedDistanceOptions{}.tolerance;
 };
@@ -67,9 +67,9 @@ std::vector<NearPair> near_pairs(const ContactWorld& world, const NearPairsOptio
 std::vector<NearPair> near_pairs(const ContactWorld& first, const ContactWorld& second,
                                  const NearPairsOptions& options);
 
-/// Returns up to `count` bodies nearest to `to`, the nearest first, with a = 0. Masks apply. Bodies
-/// whose distance is unknown (SignedDistance::is_unknown()) come last, and only if there are fewer
-/// than `count` others. Bodies proven to be further away than `at_most` are omitted.
+/// Returns up to `count` bodies nearest to `to`, the nearest first. In each result, a is 0. Masks
+/// apply. Bodies whose distance is unknown (SignedDistance::is_unknown()) come last, and only if
+/// there are fewer than `count` others. Omits bodies proven to be further away than `at_most`.
 std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& world,
                                      std::size_t count,
                                      double at_most = std::numeric_limits<double>::infinity());

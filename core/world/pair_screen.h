@@ -18,7 +18,7 @@ namespace minkray {
 struct RayLimits {
   std::vector<SlabRay> slabs;
   std::vector<float> t;            ///< rounded up from double
-  std::vector<std::uint8_t> sure;  ///< 1: the limit is that of a certain hit, not cast yet
+  std::vector<std::uint8_t> sure;  ///< 1: the limit is from a certain hit that is not cast yet
 
   explicit RayLimits(const RaySpan& rays) : slabs(rays.size()), t(rays.size()), sure(rays.size()) {
     for (std::size_t i = 0; i < rays.size(); ++i) t[i] = detail::float_above(rays.ray(i).t_max);

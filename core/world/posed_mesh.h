@@ -53,7 +53,7 @@ MeshCast cast_last_exit(const PosedMesh& posed, const Ray<double>& ray, double l
 /// order of its vertices.
 struct MeshCrossing {
   MeshCast at;
-  bool leaves = false;  ///< the ray goes with the normal
+  bool leaves = false;  ///< the ray runs in the direction of the normal
 };
 /// Appends all triangles that the ray passes through, in the order of crossings()
 /// (core/mesh/crossings.h). Returns false if numbers are too large.
