@@ -80,7 +80,7 @@ class PointCloud {
 
   std::shared_ptr<const std::vector<Vec3<double>>> points_;
   std::shared_ptr<const DirectionTable> table_;  ///< null for few points: a scan is faster
-  std::shared_ptr<const FacetMesh> facets_;      ///< of solid hulls
+  std::shared_ptr<const FacetMesh> facets_;      ///< null for flat hulls
   std::string source_;
 };
 

@@ -217,8 +217,7 @@ struct Wide {
  private:
   using Bits = typename Mask::Bits;
   static constexpr int mantissa_bits = std::numeric_limits<T>::digits - 1;
-  /// `ones`: numbers from 2^(digits - 1) on have no fraction; this is the least of them. `bias`:
-  /// stored exponents are larger than the true ones by this number.
+  /// `ones`: all numbers from this one on are integers. `bias`: amount added to stored exponents.
   static constexpr T ones = T(1) / std::numeric_limits<T>::epsilon();
   static constexpr T bias = T(std::numeric_limits<T>::max_exponent - 1);
   static Wide sign_bit() {

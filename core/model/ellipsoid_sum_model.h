@@ -229,7 +229,7 @@ class EllipsoidSumModel {
   W height_ = W(0);
   Mask<W> hits_ =
       Mask<W>(false);  ///< the line hits the sum at height_, and no plane has been requested yet
-  Mask<W> across_ = Mask<W>(false);  ///< the requested direction was the least one across the ray
+  Mask<W> across_ = Mask<W>(false);  ///< the requested direction has the least reach across the ray
   std::optional<SmoothModel<W, S>> smooth_;
 };
 

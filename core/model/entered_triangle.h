@@ -89,9 +89,9 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
     return facet;
   }
 
-  /// Finds the point where the line meets a facet's plane, moved out by the radius. The direction
-  /// from the facet to this point's projection on it gives the next facet. If two facets lead to
-  /// each other, the result is the edge between them.
+  /// Finds the point where the line meets a facet's plane, moved out by the radius. If the point's
+  /// projection to the facet is beyond an edge, the facet beyond this edge is next. If two facets
+  /// lead to each other, the result is the edge between them.
   static EnteredFacet<W> around(const Core& hull, T radius, const Vec3<T>& half_extents,
                                 const Vec3<W>& s, const Vec3<W>& from, const RayFrame<W>& frame) {
     const FacetMesh& mesh = *hull.points.facets();

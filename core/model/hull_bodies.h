@@ -20,7 +20,7 @@ struct RoundBody {
   }
   Vec3<W> support_point(const Vec3<W>& m) const { return m * radius; }
 
-  /// Unit normal where the ray meets the body around c. If the ray passes the body: the body's
+  /// Unit normal where the ray meets the body around c. If the ray misses the body: the body's
   /// normal towards the ray, perpendicular to it.
   Vec3<W> alone(const Vec3<W>& c) const {
     using std::max;
@@ -30,8 +30,8 @@ struct RoundBody {
   }
 
   /// Same as `alone`, for the cylinder that the body sweeps along e. `touch` is the point, relative
-  /// to the body's centre, where the ray meets the cylinder. If the ray passes the cylinder, it is
-  /// the point where the ray would touch a larger one.
+  /// to the body's centre, where the ray meets the cylinder. If the ray misses the cylinder,
+  /// `touch` is the point where the ray would touch a larger one.
   Vec3<W> swept(const Vec3<W>& c, const Vec3<W>& e, const W& length, Vec3<W>& touch) const {
     using std::abs;
     using std::max;

@@ -75,7 +75,7 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
   LineHit<W> result;
   ModelHit<W> model_hit = model.begin(half_extents);
   Vec3<W> n = model_hit.m;
-  W best_slope(0);  // of result.normal's plane
+  W best_slope(0);  // slope of the plane of result.normal
   for (int iteration = 0; iteration < max_iterations; ++iteration) {
     // The supporting plane in direction n clips the line or separates it from the shape. If the
     // normal does not point against the ray, the plane separates the part of the line within the
@@ -141,7 +141,7 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
 }
 
 /// Returns the unit normal where the line s + lambda r first meets the ellipsoid around the origin
-/// with these radii, all positive. If the line passes the ellipsoid, returns the ellipsoid's normal
+/// with these radii, all positive. If the line misses the ellipsoid, returns the ellipsoid's normal
 /// towards the line, perpendicular to r. `meets` is set for lines that meet the ellipsoid.
 template <class W>
 Vec3<W> normal_on_ellipsoid(const Vec3<Lane<W>>& radii, const Vec3<W>& s, const Vec3<W>& r,

@@ -114,8 +114,8 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
   const Mask<W> enters = entry.hit & (entry.lambda >= near.lambda_min);
   result.hit = enters;
   // If planes are so nearly parallel to the ray that their rounding is large along the ray, the
-  // model's hit is the better result, since it lies between points of the shape. An exception are
-  // models whose own plane is even more nearly parallel.
+  // model's hit is the better result, since it lies between points of the shape. This does not
+  // apply if the model's own plane is even more nearly parallel.
   Mask<W> bounded = entry.lambda_above < W(std::numeric_limits<T>::infinity());
   const W gap = select(bounded, W(entry.lambda_above - entry.lambda), W(0));
   bounded &= gap * z <= W(T(4) * tolerance::jet_gap<T> * R);

@@ -82,7 +82,7 @@ struct Superellipsoid {
     /// the supporting plane at the point where the line from the middle to x meets the surface. The
     /// gauge of any x is at least gradient.(x/a).
     Vec3<W> gradient;
-    W slope;      ///< derivative by lambda
+    W slope;      ///< derivative with respect to lambda
     W curvature;  ///< half of the second derivative of the gauge's square
   };
 
