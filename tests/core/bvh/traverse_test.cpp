@@ -5,6 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstring>
+
+#include "core/bvh/group_walk.h"
+#include "core/bvh/stream.h"
+
 #include "tests/core/bvh/boxes.h"
 
 namespace minkray::testing {
@@ -221,6 +227,78 @@ TEST(Traverse, near_boxes_come_first_and_a_hit_ends_the_search_behind_it) {
     EXPECT_EQ(order, std::vector<std::uint32_t>{backwards ? 1023u : 0u});
     EXPECT_LE(visited, 5u);
   }
+}
+
+TEST(Traverse, slabs_of_many_rays_are_those_of_single_rays) {
+  if (best_walk_set() != WalkSet::avx2) GTEST_SKIP() << "no AVX2";
+  BoxRandom random(4);
+  std::vector<Ray<double>> rays;
+  for (int i = 0; i < 20'000; ++i) {
+    // Lengths from the least to the greatest, and all between.
+    const double length = std::exp2(i % 3 == 0 ? random.within(-1074, 1023) : random.within(-9, 9));
+    Ray<double> ray{std::exp2(random.within(-60, 60)) * random.point(1),
+                    length * random.point(1).normalized()};
+    if (i % 5 == 0) ray.direction[i % 3] = i % 2 == 0 ? 0.0 : -0.0;
+    if (i % 7 == 0) ray.direction[i % 3] *= 0x1p-600;
+    if (i % 4 == 0) ray.t_max = std::exp2(random.within(-30, 30));
+    rays.push_back(ray);
+  }
+  rays.push_back({{1, 2, 3}, {0, 0, 0}});
+  rays.push_back({{0, -0.0, 3}, {0.5, 2, -1}});
+  std::vector<SlabRay> together(rays.size());
+  make_slabs_avx2(reinterpret_cast<const char*>(rays.data()), sizeof rays[0], rays.size(),
+                  together.data());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const SlabRay single(rays[i]);
+    ASSERT_EQ(together[i].steps, single.steps) << i;
+    ASSERT_EQ(std::memcmp(&together[i].numbers, &single.numbers, sizeof single.numbers), 0) << i;
+  }
+}
+
+TEST(Traverse, a_group_finds_the_boxes_of_its_rays) {
+  if (best_walk_set() != WalkSet::avx2) GTEST_SKIP() << "no AVX2";
+  BoxRandom random(5);
+  Boxes boxes;
+  for (int i = 0; i < 500; ++i) {
+    const Vec3<double> at = 4 * random.point(1);
+    boxes.push_back(box(at, at + random.within(0, 1) * Vec3<double>::Ones()));
+  }
+  const Bvh bvh = built(boxes);
+  std::size_t found = 0, groups = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Vec3<double> from = 6 * random.point(1), towards = random.point(1).normalized();
+    const auto count = static_cast<std::size_t>(1 + i % 32);
+    std::vector<SlabRay> rays;
+    for (std::size_t k = 0; k < count; ++k)
+      rays.emplace_back(
+          Ray<double>{from, (1 + static_cast<double>(k)) * (towards + 0.05 * random.point(1))});
+    std::vector<BoxSet> of_group(count);
+    auto visit = [&](std::uint32_t number, std::uint32_t in) {
+      for (std::size_t k = 0; k < count; ++k)
+        if (in >> k & 1u) of_group[k].insert(number);
+      // Rays past the first end after five boxes.
+      for (std::size_t k = 1; k < count; ++k)
+        if (of_group[k].size() == 5) rays[k].numbers.t_max = -1;
+    };
+    const auto plain = [](void* context, std::uint32_t number, std::uint32_t in) {
+      (*static_cast<decltype(visit)*>(context))(number, in);
+    };
+    std::vector<BoxSet> alone;
+    for (const SlabRay& ray : rays) {
+      alone.emplace_back();
+      traverse(bvh, ray, [&](std::uint32_t number) { return alone.back().insert(number), false; });
+    }
+    if (walk_group_avx2(bvh.nodes.data(), rays.data(), count, {plain, &visit}) == 0) continue;
+    ++groups;
+    EXPECT_EQ(of_group[0], alone[0]);
+    for (std::size_t k = 1; k < count; ++k) {
+      EXPECT_TRUE(includes(alone[k], of_group[k]));
+      EXPECT_EQ(of_group[k].size(), std::min<std::size_t>(5, alone[k].size()));
+    }
+    found += alone[0].size();
+  }
+  EXPECT_GT(groups, 200u);
+  EXPECT_GT(found, 300u);
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // Meshes in worlds: next to shapes and half-spaces, posed, moving, and in all kinds of queries.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/world/world.h"
 #include "tests/support/meshes.h"
 #include "tests/support/random.h"
@@ -172,6 +174,84 @@ TEST(MeshWorld, is_shown_to_some_rays_only_and_moves) {
   });
   ray.time = 0.5;
   EXPECT_EQ(world.closest_hit(ray, counts).cast.t(), 9);
+}
+
+/// Meshes alone, at sizes from thousandths to tens, some of them moving.
+World world_of_meshes(std::uint64_t seed, int count, bool moves) {
+  testing::Random random(seed);
+  const MeshPointer ball = testing::bumpy_ball(20, 24).shared(),
+                    ring = testing::torus(24, 16).shared();
+  std::vector<Affine<double>> poses;
+  for (int i = 0; i < count; ++i) {
+    poses.push_back(random_pose(random, 5));
+    if (i % 4 != 0) poses.back().linear *= std::exp2(random.uniform(-9, 3) * (i % 2 + 1) / 2);
+  }
+  Instances instances;
+  for (int i = 0; i < count; ++i) instances.add(i % 3 == 0 ? ball : ring, poses[std::size_t(i)]);
+  instances.show_to(static_cast<std::size_t>(count) / 2, 2);
+  World world(std::move(instances));
+  if (moves)
+    world.pose_all([&](std::size_t i) { return poses[i]; },
+                   [](std::size_t i) {
+                     Movement<double> movement;
+                     if (i % 5 == 0) movement.shift = {0.3, -0.2, 0.1};
+                     return movement;
+                   });
+  return world;
+}
+
+void expect_same_bounds(const WorldHit& a, const WorldHit& b) {
+  expect_same(a, b);
+  if (!a.found()) return;
+  ASSERT_EQ(a.cast.offset_lo, b.cast.offset_lo);
+  ASSERT_EQ(a.cast.offset_hi, b.cast.offset_hi);
+  ASSERT_EQ(a.cast.t_base, b.cast.t_base);
+}
+
+TEST(MeshWorld, rays_together_get_what_single_rays_get) {
+  for (const int count : {1, 2, 7, 60})
+    for (const bool moves : {false, true}) {
+      const World world = world_of_meshes(static_cast<std::uint64_t>(count), count, moves);
+      testing::Random random(8);
+      std::vector<WorldRay> rays;
+      const auto add = [&](const Ray<double>& ray) {
+        WorldRay one{ray};
+        one.time = moves ? random.uniform(0, 1) : 0;
+        one.kinds = rays.size() % 7 == 0 ? 1 : all_ray_kinds;
+        if (rays.size() % 11 == 0)
+          one.skip = static_cast<std::uint32_t>(rays.size() % world.instances().size());
+        rays.push_back(one);
+      };
+      // Blocks from four points, some within a mesh, with directions of several lengths.
+      for (int block = 0; block < 24; ++block) {
+        const Vec3<double> from = block % 4 == 0 ? Vec3<double>(0, 0, 0) : 9 * random.direction();
+        const Vec3<double> towards = (random.in_cube() - from).normalized();
+        const double length = std::exp2(random.uniform(-20, 20));
+        for (int k = 0; k < 64; ++k) {
+          const Vec3<double> d = length * (towards + 0.1 * random.in_cube());
+          add({from, d});
+          if (k % 9 == 0) rays.back().ray.t_max = 8 / length;
+        }
+      }
+      for (int i = 0; i < 1500; ++i) add(random_ray(random));
+      add({{0, 0, 0}, {0, 0, 0}});
+      add({{0, 0, 1e305}, {0, 0, -1}});
+      std::vector<WorldHit> together(rays.size());
+      std::vector<std::uint8_t> met(rays.size());
+      QueryCounts counts, alone;
+      world.closest_hits(rays, together, counts);
+      world.occluded(rays, met, alone);
+      int hits = 0;
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        SCOPED_TRACE(std::to_string(count) + " meshes, ray " + std::to_string(i));
+        const WorldHit single = world.closest_hit(rays[i], alone);
+        expect_same_bounds(together[i], single);
+        ASSERT_EQ(met[i] != 0, world.occluded(rays[i], alone));
+        hits += single.found() ? 1 : 0;
+      }
+      EXPECT_EQ(counts.exhausted, alone.exhausted);
+      EXPECT_GT(hits, 20);
+    }
 }
 
 TEST(MeshWorld, answers_rays_that_have_no_direction_or_too_large_numbers) {
