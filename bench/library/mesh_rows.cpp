@@ -85,7 +85,7 @@ std::vector<mk::Ray> scattered_from(const std::vector<mk::Ray>& rays,
   return scattered;
 }
 
-/// The same meshes twice: objects of a scene for Minkray, one mesh of all triangles for Embree.
+/// Meshes twice: as objects of a scene for Minkray, as one mesh of all triangles for Embree.
 struct MeshScene {
   std::string name;
   mk::Scene ours;
