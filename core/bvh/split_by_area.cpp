@@ -103,7 +103,7 @@ BuildRange AreaSplitter::whole() const {
 
 BuildHalves AreaSplitter::split(const BuildRange& range) const {
   BuildHalves halves;
-  std::size_t left = range.begin, right = range.end;
+  std::size_t left = range.begin;
   if (range.depth < free_split_depth) {
     const int bin_count = range.count() < few_primitives ? few_bins : most_bins;
     const Binning binning(range.extent.middles, bin_count);
@@ -122,31 +122,20 @@ BuildHalves AreaSplitter::split(const BuildRange& range) const {
     const Split best = best_split(bins, bin_count, range.count());
     halves.axis = best.axis;
 
-    // Partitions in place, from both ends. Adds each primitive to the extent of its side.
+    // Partitions without a branch, which would be unpredictable.
     const auto first_right = static_cast<float>(best.bin);
-    const auto goes_left = [&](const Primitive& primitive) {
-      return binning(primitive).lane(best.axis) < first_right;
-    };
-    if (best.bin > 0) {
-      for (;;) {
-        while (left < right && goes_left(primitives_[left]))
-          halves.left.extent.add(primitives_[left++]);
-        while (left < right && !goes_left(primitives_[right - 1]))
-          halves.right.extent.add(primitives_[--right]);
-        if (left == right) break;
-        std::swap(primitives_[left], primitives_[right - 1]);
-      }
+    for (std::size_t i = range.begin; best.bin > 0 && i < range.end; ++i) {
+      const Primitive primitive = primitives_[i];
+      primitives_[i] = primitives_[left];
+      primitives_[left] = primitive;
+      left += binning(primitive).lane(best.axis) < first_right ? 1 : 0;
     }
   }
   // If all middles are at one place, or if the range is too deep, splits into halves of equal
   // count.
-  if (left == range.begin || left == range.end) {
-    left = range.begin + range.count() / 2;
-    halves.left.extent = extent_of(primitives_, range.begin, left);
-    halves.right.extent = extent_of(primitives_, left, range.end);
-  }
-  halves.left = {range.begin, left, range.depth + 1, halves.left.extent};
-  halves.right = {left, range.end, range.depth + 1, halves.right.extent};
+  if (left == range.begin || left == range.end) left = range.begin + range.count() / 2;
+  halves.left = {range.begin, left, range.depth + 1, extent_of(primitives_, range.begin, left)};
+  halves.right = {left, range.end, range.depth + 1, extent_of(primitives_, left, range.end)};
   return halves;
 }
 
