@@ -44,9 +44,10 @@ struct SignedDistance {
   /// docs/contact.md.
   Vec3<double> point_a = Vec3<double>::Zero();
   Vec3<double> point_b = Vec3<double>::Zero();
-  /// Unit vector from A to B: the normal of two separating planes that are at least `lower` apart.
-  /// For an overlap, the two bounding planes overlap by at most -`lower`, and moving B along the
-  /// normal separates the shapes.
+  /// Unit vector from A to B: the normal of two planes, one bounding A, the other B. If the shapes
+  /// are separated, the planes are at least `lower` apart. For an overlap, the half-spaces behind
+  /// the two planes, which contain A and B, overlap by at most -`lower`; moving B along the normal
+  /// separates the shapes.
   Vec3<double> normal = Vec3<double>::Zero();
   int supports = 0;  ///< number of support points of B - A; each costs one of A and one of B
   /// Set if the limit of support points was reached: the bounds hold, but are not within the

@@ -27,9 +27,9 @@ inline constexpr std::array solver_descriptions = {
     SolverDescription{SolverKind::automatic, "auto", "the best solver for each shape"},
     SolverDescription{SolverKind::paper, "paper",
                       "the GJK ray cast, Algorithm 3 of van den Bergen (2004)"},
-    SolverDescription{
-        SolverKind::jet, "jet",
-        "approximates the shape by a few osculating ellipsoids; accurate to rounding"},
+    SolverDescription{SolverKind::jet, "jet",
+                      "approximates the shape by a few osculating ellipsoids; the result is "
+                      "accurate to rounding"},
     SolverDescription{SolverKind::portal, "portal",
                       "refines a portal: a triangle of support points that the ray crosses"},
     SolverDescription{SolverKind::first_solution, "first-solution",

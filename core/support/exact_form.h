@@ -1,31 +1,34 @@
 // SPDX-License-Identifier: MIT
-// Closed form of a shape for casts: its kind and its numbers. Casts at a shape that declares no
-// form use only its support mapping and jets.
+// Closed form of a shape for casts: the form's kind and parameters. Casts at a shape that declares
+// no form use only the shape's support mapping and jets.
 #pragma once
 
 #include <array>
 
 namespace minkray {
 
-/// The closed forms, one file each in core/exact, and the meaning of their numbers. All forms are
-/// centred at `middle`, along the axes of the shape's own frame. Lengths are not negative.
+/// Kinds of closed forms, each in its own file in core/exact, with the parameters in `sizes`. All
+/// forms are centred at `middle`, with axes along those of the shape's own frame. Lengths are not
+/// negative.
 enum class FormKind : unsigned char {
   none,
   ball,             ///< radius
   ellipsoid,        ///< three radii
   box,              ///< three half extents
   rounded_box,      ///< three half extents of the box before rounding, radius
-  capsule,          ///< radius, half height: along z
+  capsule,          ///< radius, half height (along z)
   tapered_capsule,  ///< the balls' radii at -z and +z, half the distance of their centres
-  cylinder,         ///< radius, half height: along z
+  cylinder,         ///< radius, half height (along z)
   frustum,          ///< the disks' radii at -z and +z, half height
-  cut_cylinder,     ///< radius, the planes' heights on the z axis, lower and upper slope along x, y
-  segment,          ///< half the vector from end to end; rounding radius
-  triangle,         ///< three corners; rounding radius
-  polytope,         ///< has no numbers: shapes declare its facets (declared.h). Must be last
+  /// Radius; heights of both planes on the z axis (lower, upper); slopes along x and y of the lower
+  /// plane, then of the upper plane.
+  cut_cylinder,
+  segment,   ///< half the vector from end to end; rounding radius
+  triangle,  ///< three corners; rounding radius
+  polytope,  ///< no parameters: shapes declare facets (declared.h). Must be last
 };
 
-/// The numbers of a form; the largest form has this many.
+/// Parameters of a form. A triangle has the most: ten.
 using FormSizes = std::array<double, 10>;
 
 struct ExactForm {

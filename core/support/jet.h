@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Jets: a shape's support mapping to second order (derived in docs/forms.md). In direction n, an
-// ellipsoid with the same support point and curvature approximates the shape. With h(n) = n.s(n),
-// an interior point c, g = s - c and H = ds/dn, the ellipsoid's shape matrix around c is A = h H +
-// g g^T. Jets store a factor F of A = F F^T; A would lose half of the digits of flat features.
+// Jets: a shape's support mapping s(n) to second order (docs/forms.md). In direction n, an
+// ellipsoid with the same support point and curvature approximates the shape. For a centre c inside
+// the shape, g = s - c, h = n.g and H = ds/dn, the ellipsoid's shape matrix is A = h H + g g^T.
+// Jets store a factor F with F F^T = A, since A would lose half of the digits of flat features.
 #pragma once
 
 #include <concepts>
@@ -107,8 +107,8 @@ Mat3<W> factor(const Mat3<W>& A) {
 }
 
 /// Returns a factor of an ellipsoid that approximates the Minkowski sum of two ellipsoids with a
-/// common centre. The ellipsoid and the sum have the same reach, support point and curvature in
-/// direction n.
+/// common centre. The returned ellipsoid and the sum have the same reach, support point and
+/// curvature in direction n.
 template <class W>
 Mat3<W> osculating_sum(const Mat3<W>& F_a, const Mat3<W>& F_b, const Vec3<W>& n) {
   const Vec3<W> u_a = F_a.transpose() * n, u_b = F_b.transpose() * n;
@@ -131,7 +131,8 @@ Jet<W> add(const Jet<W>& a, const Jet<W>& b, const Vec3<W>& n) {
   };
   const Mask<W> a_point = a.is_point(), b_point = b.is_point();
   const Mask<W> balls = is_ball(a.F) & is_ball(b.F);
-  const Mask<W> simple = a_point | b_point | balls;  // F of a point is zero: factors can be added
+  // The factor of the sum is a.F + b.F: F of a point is zero, and the radii of two balls add.
+  const Mask<W> simple = a_point | b_point | balls;
   const Jet<W> joined{c, Mat3<W>(a.F + b.F), Mask<W>(a.exact & b.exact), s};
   if (all(simple)) return joined;
 

@@ -62,9 +62,9 @@ class World {
   }
   bool occluded(const WorldRay& ray, QueryCounts& counts) const;
 
-  /// Appends all points with 0 <= t <= t_max where the ray enters or leaves an instance, by t and
-  /// instance. If the ray begins inside an instance, only the exit is appended; if it ends inside,
-  /// only the entry. Ignores `skip` completely.
+  /// Appends all points with 0 <= t <= t_max where the ray enters or leaves an instance, sorted by
+  /// t, then by instance. For an instance that contains the ray's origin, appends only the exit;
+  /// for one that contains the ray's end, only the entry. Ignores `skip` completely.
   void all_hits(const WorldRay& ray, std::vector<WorldCrossing>& to, QueryCounts& counts) const;
 
   /// Finds the first hits of many rays. Faster in large batches, and if consecutive rays are
@@ -151,7 +151,8 @@ class World {
   Bvh mesh_boxes_;  ///< contains the meshes, by their index in Instances::meshes()
   std::vector<Bounds<float>> boxes_of_meshes_;
   BvhBuild build_ = BvhBuild::quality;
-  /// Instances left out of the BVH as copies, sorted by the instance that they equal.
+  /// Instances left out of the BVH because they repeat others (repeated.h), sorted by the instance
+  /// that each repeats.
   std::vector<RepeatedInstance> repeated_;
   double visits_as_built_ = 0;  ///< expected per ray; 0: not known yet
   CastOptions options_;

@@ -56,8 +56,8 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
           "How to represent robot meshes:\n"
           "exact: triangles\n"
           "hull: convex hulls\n"
-          "Default: hull with --split, and for distances and collisions of MJCF robots; "
-          "otherwise exact")
+          "Default: hull if --split is given, or if distances or contacts of an MJCF robot are "
+          "computed; otherwise exact")
       .one_of({"hull", "exact"})
       .group(group);
   verb.add_option("--keyframe", options.keyframe, "Keyframe to use, by name or number (MJCF)")

@@ -42,7 +42,7 @@ inline constexpr VerbRow verbs[] = {
      "minkray-inspect",
      {"minkray inspect shape-zoo -o zoo.html", "minkray inspect shape-zoo --serve"}},
     {"compare",
-     "Check every object of a scene against triangle meshes in Embree",
+     "Check each object against a mesh inside it and a mesh around it (Embree)",
      "minkray-compare",
      {"minkray compare shape-zoo", "minkray compare scene.json --rays 10000 -o gaps.png"}},
     {"cast",

@@ -23,12 +23,13 @@ void add_compare(Parser& parser, ExitCode& exit_code) {
                   "Rays per object; default: 100000 (fewer above 200 objects)")
       .between(1, 1 << 30);
   verb.add_option("--directions", options->directions,
-                  "Support directions per shape\nSupport points along them make the first meshes "
-                  "inside and around the shape\nDefault: 500 (100 above 500 objects)")
+                  "Support directions from which the two meshes of each object are made\n"
+                  "Default: 500 (100 above 500 objects)")
       .between(20, 1 << 20);
-  verb.add_option("-o,--output", image.outputs,
-                  "Picture to write\nShows the distance between the meshes inside and around each "
-                  "shape; marks contradictions")
+  verb.add_option(
+          "-o,--output", image.outputs,
+          "Picture to write: the gap between the two meshes at each pixel, and marks at rays "
+          "that contradict a mesh")
       .one_value_each()
       .writes_file();
   verb.add_option("-r,--resolution", image.resolution,
@@ -39,7 +40,8 @@ void add_compare(Parser& parser, ExitCode& exit_code) {
       .show_default();
   verb.add_option("--seed", image.seed, "Random seed (0 to 2^64 - 1)").takes("N").show_default();
   add_solver_option(verb, image.solver);
-  verb.add_flag("--json", options->json, "Print JSON, with histograms of the gaps");
+  verb.add_flag("--json", options->json,
+                "Print JSON, with histograms of the gaps between each shape and its meshes");
   verb.add_flag("-q,--quiet", image.quiet, "Print no progress");
   verb.on_call([options, &exit_code] {
     with_threads(options->image.threads, [&] { compare(*options, exit_code); });

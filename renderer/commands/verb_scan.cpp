@@ -229,9 +229,10 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .group(heading)
       .takes("N")
       .show_default();
-  verb.add_option("--returns", options.scan.returns,
-                  "Maximum number of echoes per ray: one for each body that the ray enters\n"
-                  "With --divergence: one for each distinct hit of the beam")
+  verb.add_option(
+          "--returns", options.scan.returns,
+          "Maximum number of echoes per ray; without --divergence, each body that the ray enters "
+          "gives an echo")
       .group(heading)
       .between(1, 64)
       .show_default();
@@ -243,15 +244,18 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .show_default();
   verb.add_option("--divergence", options.scan.divergence,
                   "Full angle of the beam (rad); 0: a single ray\n"
-                  "Above 0, the echoes are the first hits of --beam-rays rays in the beam")
+                  "Above 0, the beam is sampled by several rays (--beam-rays); each ray's first "
+                  "hit gives an echo")
       .group(heading)
       .between(0.0, 1.0);
-  verb.add_option("--beam-rays", options.scan.beam_rays, "Rays per beam, with --divergence")
+  verb.add_option("--beam-rays", options.scan.beam_rays,
+                  "Rays that sample a beam (used with --divergence)")
       .group(heading)
       .between(1, 4096)
       .show_default();
   verb.add_option("--resolution", options.scan.resolution,
-                  "Minimum distance between two echoes of a beam, with --divergence (scene units)")
+                  "Minimum distance between two echoes of a beam (scene units)\n"
+                  "Used with --divergence: nearer echoes are joined")
       .group(heading)
       .between(0.0, 1e9)
       .show_default();
