@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// All points where a ray passes through a mesh, in their order: a closed mesh without
-// self-intersections is entered and left in turn.
+// All points where a ray passes through a mesh, in order along the ray. In a closed mesh without
+// self-intersections, entries and exits alternate.
 #pragma once
 
 #include <vector>
@@ -10,9 +10,10 @@
 namespace minkray {
 
 /// Returns the triangles that the ray passes with 0 <= t <= t_max, in exact order; t never
-/// decreases, and `error` remains a bound. A ray through an edge or a vertex passes one of the
-/// triangles there; it may enter and leave there, or not at all if it only touches the mesh.
-/// Triangles in one plane follow in the order that leaves and enters in turn.
+/// decreases, and `error` remains a bound. A ray that crosses the surface at an edge or a vertex
+/// passes one of the triangles there. A ray that only touches the mesh there passes either an entry
+/// and an exit, or no triangle. Triangles in one plane are sorted so that entries and exits
+/// alternate.
 std::vector<PartHit> crossings(const TriangleMesh& mesh, const Ray<double>& ray);
 
 }  // namespace minkray

@@ -8,8 +8,8 @@
 namespace minkray {
 
 /// The sign of d . ((a - o) x (b - a)): -1, 0 or 1. Uses sums without rounding (Shewchuk, "Adaptive
-/// Precision Floating-Point Arithmetic", 1997), so it is exact unless a product leaves the range of
-/// double.
+/// Precision Floating-Point Arithmetic", 1997), so the sign is exact unless a product leaves the
+/// range of double.
 int exact_side_of_edge(const Vec3<double>& o, const Vec3<double>& d, const Vec3<double>& a,
                        const Vec3<double>& b);
 

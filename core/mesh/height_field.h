@@ -14,16 +14,17 @@ namespace minkray {
 struct HeightField {
   std::span<const double> heights;  ///< row by row, the row of the least y first
   std::size_t rows = 0, columns = 0;
-  double size_x = 1, size_y = 1;  ///< length from the first to the last column, and row
+  double size_x = 1;  ///< distance from the first to the last column
+  double size_y = 1;  ///< distance from the first to the last row
   /// If set, walls and a bottom at this z close the terrain to a solid.
   std::optional<double> bottom = {};
 };
 
-/// The triangles of the cell in row r and column c are 2 (r (columns - 1) + c) and the next one.
-/// The edge between the two goes from the cell's corner of least x and y to that of greatest x and
-/// y. The triangles of walls and bottom follow. Throws std::invalid_argument unless there are at
-/// least two rows and columns, all numbers are finite, sizes are above 0 and the bottom is below
-/// all heights.
+/// The triangles of the cell in row r and column c have the numbers i = 2 (r (columns - 1) + c) and
+/// i + 1. The edge between the two goes from the cell's corner of least x and y to that of greatest
+/// x and y. The triangles of walls and bottom have the numbers after those of all cells. Throws
+/// std::invalid_argument unless there are at least two rows and columns, all numbers are finite,
+/// sizes are above 0 and the bottom is below all heights.
 std::shared_ptr<const TriangleMesh> mesh_of(const HeightField& field);
 
 }  // namespace minkray

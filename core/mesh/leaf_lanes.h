@@ -14,7 +14,7 @@
 namespace minkray {
 namespace {
 
-/// Numbers of a ray that tests of leaves use.
+/// Values of a ray for tests of leaves.
 struct LeafRay {
   double origin[3];      ///< by x, y, z
   double shear[4];       ///< change of the ray's x and y while z increases by 1
@@ -51,15 +51,14 @@ struct LeafRay {
 
 /// Returns the lanes of triangles that the ray may meet at 0 <= z <= reach. In units of the leaf,
 /// with u = 2^-24:
-/// - A sheared coordinate of a true corner is at most `most`: all corners are in the leaf's cube,
-/// and
-///   the sheared cube has its middle at `middle` and half the width 32767.5 (1 + |shear|).
+/// - A sheared coordinate of a true corner is at most `most`, since all corners are in the leaf's
+///   cube. The sheared cube has its middle at `middle` and half the width 32767.5 (1 + |shear|).
 /// - The error of a coordinate is at most `off`, the sum of: half a unit each for x and z (1); the
 ///   rounding of cx, of the shear and of two sums (u (3 most + 2 * 65535); the bound allows
 ///   4 u most + 0.01); the rounding, in double, of the vector from the ray's origin (`far`, counted
 ///   twice).
-/// - The error of a product of two is 2 most off + off^2 and its rounding; the difference of two
-///   products is rounded, too.
+/// - The error of a product of two coordinates is 2 most off + off^2, plus the product's rounding;
+///   the difference of two products is rounded, too.
 [[gnu::always_inline]] inline std::uint32_t lanes_that_may_be_met(const MeshLeaf& leaf,
                                                                   const LeafRay& ray) {
   constexpr double half_cube = 32767.5, off_of_units = 1.01, four_u = 0x1p-22;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Visits the leaves below a node or child of a mesh's hierarchy.
+// Visits the leaves below a node of a mesh's BVH.
 #pragma once
 
 #include <vector>

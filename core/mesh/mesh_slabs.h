@@ -13,8 +13,8 @@ namespace minkray {
 class TriangleMesh;
 
 /// Each child of a node lies between two planes perpendicular to a normal, which need not have unit
-/// length. Their offsets are relative to the middle of the mesh's box. A normal of 0 means that
-/// there is no slab.
+/// length. The planes' offsets are relative to the middle of the mesh's box. A normal of 0 means
+/// that there is no slab.
 struct NodeSlabs {
   float normals[3][bvh_width];
   float low[bvh_width], high[bvh_width];

@@ -91,7 +91,7 @@ void visit_hits(const TriangleMesh& mesh, const Ray<double>& ray, PartCounts& co
   });
 }
 
-/// Casts up to most_rays_of_walk suitable rays. The hits must be misses before the call.
+/// Casts up to most_rays_of_walk suitable rays. Before the call, `hits` must contain only misses.
 inline constexpr std::size_t most_rays_of_walk = 1024;
 void closest_parts_avx2(const MeshView& view, const PartRay* rays, std::size_t count, PartHit* hits,
                         PartCounts& counts);

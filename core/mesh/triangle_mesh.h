@@ -24,7 +24,7 @@ using Corners = std::array<std::uint32_t, 3>;
 inline constexpr std::uint32_t no_part = ~std::uint32_t{0};
 
 /// Defects of a mesh; vertices at the same position count as one. Results are correct in spite of
-/// them: for example, rays hit the neighbours of a triangle without area.
+/// defects: for example, rays hit the neighbours of a triangle without area.
 struct MeshFaults {
   std::size_t without_area = 0;
   std::size_t repeated = 0;    ///< triangles with the same vertices as another
@@ -57,7 +57,7 @@ class TriangleMesh {
 
   /// Bounding box of the vertices that triangles use.
   const Bounds<double>& bounds() const { return bounds_; }
-  /// The BVH. Children with the leaf bit are numbers of leaves().
+  /// The BVH. Children with the leaf bit are indices into leaves().
   const Bvh& bvh() const { return bvh_; }
   std::span<const MeshLeaf> leaves() const { return leaves_; }
   /// Boxes of a leaf's triangles. Children with the leaf bit are numbers of triangles.

@@ -10,8 +10,9 @@
 
 namespace minkray {
 
-/// The body's frame has the axes of the definition's inner frame (see PreparedShape). Its origin is
-/// that of the shape's own frame if the body is plain; otherwise the centre of the inner ball.
+/// The axes of the body's frame are those of the definition's inner frame (see PreparedShape). The
+/// origin of the body's frame is that of the shape's own frame if the body is plain; otherwise the
+/// centre of the inner ball.
 struct InstanceBody {
   std::shared_ptr<const ShapeDefinition> definition;
   std::uint32_t number = 0;                    ///< number of the definition

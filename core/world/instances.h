@@ -32,7 +32,8 @@ inline constexpr std::uint32_t no_instance = std::numeric_limits<std::uint32_t>:
 using RayKinds = std::uint8_t;
 inline constexpr RayKinds all_ray_kinds = 0xff;
 
-/// All instances of a world. Each takes 64 bytes, and 36 more if its pose does not fit in floats.
+/// All instances of a world. An instance takes 64 bytes, and 36 more if its pose does not fit in
+/// floats.
 class Instances {
  public:
   /// Stores a shape for `add`. Returns its number; equal shapes get the same number.
@@ -44,8 +45,8 @@ class Instances {
   void add(std::uint32_t definition, const Affine<double>& pose);
   void add(Shape shape, const Affine<double>& pose = {}) { add(define(std::move(shape)), pose); }
 
-  /// Adds a half-space under a pose. A half-space has no definition and no box, so `at` must not be
-  /// called for it.
+  /// Adds a half-space under a pose. Half-spaces have no definition and no box, so `at` must not be
+  /// called for them.
   void add(const HalfSpaceBody<double>& half_space, const Affine<double>& pose = {});
 
   /// Adds a mesh under a pose. A mesh has a box but no definition.

@@ -67,9 +67,10 @@ std::vector<NearPair> near_pairs(const ContactWorld& world, const NearPairsOptio
 std::vector<NearPair> near_pairs(const ContactWorld& first, const ContactWorld& second,
                                  const NearPairsOptions& options);
 
-/// Returns up to `count` bodies nearest to `to`, the nearest first. In each result, a is 0. Masks
-/// apply. Bodies whose distance is unknown (SignedDistance::is_unknown()) come last, and only if
-/// there are fewer than `count` others. Omits bodies proven to be further away than `at_most`.
+/// Returns up to `count` bodies nearest to `to`, the nearest first. In each result, a is 0. Skips
+/// bodies that cannot form a pair due to their masks. Bodies whose distance is unknown
+/// (SignedDistance::is_unknown()) come last, and only if there are fewer than `count` others. Omits
+/// bodies proven to be further away than `at_most`.
 std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& world,
                                      std::size_t count,
                                      double at_most = std::numeric_limits<double>::infinity());

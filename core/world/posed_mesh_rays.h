@@ -10,14 +10,15 @@
 
 namespace minkray {
 
-/// Errors of a ray that is mapped to a mesh's frame.
+/// Error bounds of a ray that is mapped to a mesh's frame.
 struct MapLoss {
-  double before = 0;                 ///< of the ray's position before the map
-  double origin = 0, direction = 0;  ///< of the map
-  int exponent = 0;                  ///< the mapped direction is longer by 2^exponent
+  double before = 0;                 ///< error of the ray's position before the map
+  double origin = 0, direction = 0;  ///< errors added by the map
+  int exponent = 0;                  ///< the map also multiplies the direction by 2^exponent
 };
 
-/// Rays that are cast at one mesh together. Its memory serves several meshes in turn.
+/// Rays that are cast at one mesh together. One object may serve several meshes in turn, without
+/// new allocations.
 class RaysAtMesh {
  public:
   /// Forgets all rays. At most `most_rays` are added from now on, for this mesh.
@@ -46,7 +47,7 @@ class RaysAtMesh {
 
   const PosedMesh* posed_ = nullptr;
   std::size_t count_ = 0;
-  Vec3<double> last_origin_;  ///< of the last ray, in the world
+  Vec3<double> last_origin_;  ///< origin of the last ray, in the world
   FirstTouchVector<PartRay> rays_;
   FirstTouchVector<MapLoss> losses_;
   FirstTouchVector<std::uint32_t> numbers_;

@@ -37,8 +37,8 @@ class HitReceiver {
   virtual void take(std::size_t first, std::uint64_t which, const BlockHits& hits) = 0;
 };
 
-/// Any number of threads may query a world while no thread changes it. The result of a ray is
-/// bit-identical for any batch that contains the ray, and for any BVH.
+/// Any number of threads may query a world while no thread changes it. The result of a ray has the
+/// same bits in any batch that contains the ray, and with any BVH.
 class World {
  public:
   World() = default;
@@ -108,7 +108,7 @@ class World {
                            std::vector<WorldCrossing>& to, QueryCounts& counts) const;
   void add_shapeless_crossings(const WorldRay& ray, std::vector<WorldCrossing>& to,
                                QueryCounts& counts) const;
-  /// Tries to decide the ray in float lanes (SIMD); returns false if these are inconclusive.
+  /// Tries to decide the ray in float lanes (SIMD); returns false if the lanes are inconclusive.
   bool closer_candidate(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
   SingleRay single_ray(const WorldRay& ray) const;
   SingleWorld single_world() const;
@@ -154,7 +154,7 @@ class World {
   /// Instances left out of the BVH because they repeat others (repeated.h), sorted by the instance
   /// that each repeats.
   std::vector<RepeatedInstance> repeated_;
-  double visits_as_built_ = 0;  ///< expected per ray; 0: not known yet
+  double visits_as_built_ = 0;  ///< expected node visits per ray; 0: not known yet
   CastOptions options_;
   bool is_default_ = true;  ///< the options allow packets and closed forms
   FormKind kind_of_all_ = FormKind::none;
