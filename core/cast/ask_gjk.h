@@ -9,8 +9,8 @@
 
 namespace minkray {
 
-/// Reference algorithms and observed casts use Shape: compiling them for every kind of
-/// shape is not worthwhile.
+/// Reference algorithms and observed casts are compiled only for the type Shape. Code for every
+/// kind of shape would not be worthwhile.
 template <class Observer>
 CastResult<double> cast_with_gjk(Stage stage, const StageQuestion& question, Observer&& observer) {
   const auto& near = question.near;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Bounds from above the parameter at which a ray enters a shape, by three support points that the
-// ray passes between.
+// Computes an upper bound of the parameter at which a ray enters a shape, from three support points
+// that the ray passes between.
 #pragma once
 
 #include "core/cast/cast.h"

@@ -67,7 +67,8 @@ template <bool leaves, class W, class Placed>
   const W first = leaves ? W(-near.end) : near.begin, last = leaves ? W(-near.begin) : near.end;
   exact::Entry<W> entry = exact::enter<W>(form, line, open & near.bounded);
 
-  // A plane that proves a miss is parallel to the line, up to rounding. Corrects its normal.
+  // A plane that proves a miss is parallel to the line, up to rounding. Removes this rounding from
+  // the plane's normal.
   if (any(entry.miss)) {
     const W towards = entry.normal.dot(line.d) * line.inv;
     entry.normal = select<W>(entry.miss, Vec3<W>(entry.normal - line.d * towards), entry.normal);

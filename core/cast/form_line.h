@@ -43,7 +43,7 @@ template <class W, class Placed>
   RayNearBall<W> seen = detail::near_of(shape, ray);
   const Mat3<P>* map = shape.linear_to_inner();
   const P inner_R(form.inner_R), distance = sqrt(P(shape.centre().squaredNorm()));
-  // The two steps are rounded like positions of the size of the form and of its centre.
+  // The rounding of the two steps is that of positions as large as the form and its centre.
   W reach(inner_R + distance / P(4));
   Mask<W> well_mapped(true);
   if (map) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Selects the result of a cast from the results of its stages: the first one that needs no proof or
-// that is proven to the precision of double ("sharply"). If there is none, the first one with a
-// coarser proof.
+// Selects the result of a cast from the results of its stages: the first result that needs no proof
+// or that is proven to the precision of double ("sharply"). If there is no such result, selects the
+// first one with a coarser proof.
 #pragma once
 
 #include <optional>

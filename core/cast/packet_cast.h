@@ -40,8 +40,8 @@ struct alignas(32) RayPacket {
 using LaneBits = std::uint32_t;
 inline constexpr LaneBits all_lanes = (LaneBits(1) << packet_lanes) - 1;
 
-/// CastResult, lane by lane. Lanes that were not requested are undefined. In lanes that miss, all
-/// members of t are undefined.
+/// CastResult, lane by lane. Lanes that were not requested are undefined. In lanes that miss, the
+/// members for t and its bounds are undefined.
 struct alignas(32) CastPacket {
   LaneBits hit = 0, inside = 0, miss = 0;  ///< a requested lane with none of these is exhausted
   PacketNumbers t_base, t_offset, offset_lo, offset_hi;

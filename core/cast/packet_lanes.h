@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Converts packets to lanes for the kernels. All names depend on the lanes' type, and so on the
+// Converts packets to lanes for the kernels. All names depend on the lanes' type, and thus on the
 // instruction set: see core/math/wide.h.
 #pragma once
 

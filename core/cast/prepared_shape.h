@@ -38,7 +38,7 @@ class PreparedShape {
                       placement.is_rigid_identity ? nullptr : &placement.to_inner, placement.loss) {
   }
 
-  /// Does not count references, so it is cheap enough for one call per cast, as in worlds. The
+  /// Does not count references to the definition, so one call per cast is cheap, as in worlds. The
   /// definition must outlive the prepared shape. `to_inner` is null for the identity. `loss` is as
   /// in Placement.
   PreparedShape(const Definition& definition, const TwoFoldVec3<double>& centre,

@@ -15,7 +15,8 @@ namespace minkray {
 
 /// Polygons as consecutive lists of indices.
 struct Polygons {
-  std::vector<std::uint32_t> begin = {0};  ///< first corner of each polygon; then the end
+  /// Index into `corners` of each polygon's first corner; then the number of all corners.
+  std::vector<std::uint32_t> begin = {0};
   std::vector<std::uint32_t> corners;
 
   std::size_t size() const { return begin.size() - 1; }

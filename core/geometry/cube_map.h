@@ -14,7 +14,7 @@ class CubeMap {
   struct Cell {
     int axis;            ///< axis of the face: that of the largest component
     double sign;         ///< sign of that component
-    double u, v, width;  ///< next two components / largest: [u, u + width], [v, v + width]
+    double u, v, width;  ///< other components / largest: [u, u + width], [v, v + width]
   };
 
   /// Makes about this many cells, but no more than float can count.

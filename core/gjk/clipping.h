@@ -12,7 +12,8 @@ namespace minkray {
 
 /// Clipping by the supporting plane through the support point p along n excludes a part of the ray:
 ///   1. n.r < 0: the part before lambda_clip, which is a lower bound of the hit;
-///   2. n.r > 0: the part after lambda_clip; the entire ray if this is below the lower bound;
+///   2. n.r > 0: the part after lambda_clip; the entire ray if lambda_clip is below the lower
+///   bound;
 ///   3. n.r = 0: nothing, or the entire ray if it runs in front of the plane.
 enum class ClipCase : unsigned char { lower_bound = 1, upper_bound = 2, parallel = 3 };
 

@@ -61,8 +61,8 @@ ClosestPoint<T> closest_on_edge(const SimplexPoints<T>& simplex, int i, int j) {
   // Starts from the nearer end, so that the rounded product is small.
   result.v = towards_b < towards_a ? Vec3<T>(a + result.weights[ib] * edge)
                                    : Vec3<T>(b - result.weights[ia] * edge);
-  // Makes v orthogonal to the edge again. The direction of a short v consists mostly of rounding,
-  // and its support point would be a vertex that the simplex already has.
+  // Makes v orthogonal to the edge again. Otherwise the direction of a short v would consist mostly
+  // of rounding, and its support point would be a vertex that the simplex already has.
   result.v -= (result.v.dot(edge) / squared) * edge;
   result.kept = (1u << i) | (1u << j);
   return result;

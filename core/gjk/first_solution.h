@@ -70,8 +70,8 @@ requires SupportMapped<S, T> CastResult<T> first_solution(
     // True if x is close enough to c, or inside the object at the beginning.
     const bool is_close = closest.status == DistanceStatus::overlapping ||
                           closest.distance <= tolerance::gjk_rounding<T> * ball.radius;
-    // Clips by the nested query's best plane instead of the plane through c: that plane never cuts
-    // into the object.
+    // Clips by the nested query's best plane instead of the plane through c: the query's plane
+    // never cuts into the object.
     const Vec3<T> axis = closest.axis;
     observer(CastIteration<T>{lambda, x, axis, c, x - c, {}});
     if (is_close) return finish();

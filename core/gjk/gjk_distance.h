@@ -75,7 +75,7 @@ DistanceResult<T, Dim> gjk_distance(const Supports& supports, const Vec<T, Dim>&
     result.certificate = std::max(gap, T(0));
     return result;
   };
-  // The search ends: v is close enough, or rounding leaves no progress.
+  // Ends the search: v is close enough, or rounding prevents further progress.
   const auto stalled = [&] {
     if (result.lower > tolerance::gjk_rounding<T> * radius)
       return finish(DistanceStatus::separated);

@@ -54,7 +54,7 @@ class SimplexVertices {
     return furthest;
   }
 
-  /// Removes the vertices whose bits are not set; v does not need them.
+  /// Removes the vertices whose bits are not set, which v does not need.
   void keep(unsigned kept) { used_ &= kept; }
 
  protected:

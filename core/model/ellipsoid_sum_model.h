@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The model of a sum of ellipsoids. Its support function is a sum of square roots, so the hit's
 // direction is found without support calls: by osculating ellipsoids, as in SmoothModel, or by
-// ellipsoids that contain the sum and touch it. One support call then proves the hit. If it does
-// not, the cast continues as SmoothModel.
+// ellipsoids that contain the sum and touch it. One support call then proves the hit. If the
+// proof fails, the cast continues as SmoothModel.
 #pragma once
 
 #include <optional>
@@ -60,8 +60,7 @@ class EllipsoidSumModel {
     const Vec3<W> n_frame = smooth_->to_frame(n);
     ModelHit<W> hit = smooth_->step(smooth_->support(n_frame, Mask<W>(true)), n_frame, iteration);
     hit.m = smooth_->to_shape(hit.m);
-    // The support function has its minimum over directions across the ray in the requested
-    // direction.
+    // Of all directions across the ray, the requested direction has the least support function.
     hit.repeated |= across_;
     // The plane confirms the hit up to rounding, but is so nearly parallel to the ray that rounding
     // is large along the ray. The next direction shows whether the ray is tangent.
@@ -209,8 +208,8 @@ class EllipsoidSumModel {
     return hit;
   }
 
-  /// Sums of two ordinary ellipsoids need three or four evaluations, sums of needles dozens.
-  /// SmoothModel continues the latter.
+  /// Sums of two ordinary ellipsoids need three or four evaluations. Sums of needles need dozens,
+  /// so SmoothModel continues the search.
   static constexpr int max_evaluations = 12;
   /// Directions across the ray converge in about four evaluations.
   static constexpr int max_across = 6;

@@ -78,7 +78,8 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
     const Mask<W> has_normal = facet.normal.squaredNorm() > W(0);
     facet.known &= has_normal;
     facet.enters &= has_normal;
-    // Limits the height to those of the corners, since the plane may be nearly parallel to the ray.
+    // Limits the height to the range of the corners' heights, since the plane may be nearly
+    // parallel to the ray.
     const auto& [a, b, c] = corners;
     const W z = select(facet.normal.z() > W(0), facet.normal.z(), W(1));
     facet.height = min(max(W(a.dot(facet.normal) / z), min(a.z(), min(b.z(), c.z()))),
@@ -96,8 +97,8 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
                                 const Vec3<W>& s, const Vec3<W>& from, const RayFrame<W>& frame) {
     const FacetMesh& mesh = *hull.points.facets();
     const Vec3<W> guess = normal_on_extents<W>(half_extents, s, Vec3<W>(-frame.z));
-    // Facets are stored as supported if they are thick relative to the hull. Here they must also be
-    // thick relative to the radius, since otherwise rounding decides which facet is next.
+    // Facets are stored as supported if they are thick relative to the hull. Here, facets must also
+    // be thick relative to the radius, since otherwise rounding decides which facet is next.
     const T R = half_extents.maxCoeff();
     const bool tells = T(4) * (R - radius) >= R;
 
@@ -241,7 +242,7 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
 
   /// The guessed direction at the start of a walk is tilted towards the ray. The first tilt is
   /// small: enough for most guesses perpendicular to the ray. If the facet found faces away, larger
-  /// tilts follow. Their facets are less near, but more likely to face the ray.
+  /// tilts follow, whose facets are further away, but more likely to face the ray.
   static constexpr std::array<T, 3> tilts = {T(1) / T(32), T(1) / T(2), T(4)};
   static constexpr int restarts = static_cast<int>(tilts.size()) - 1;
   static W start(const FacetMesh& mesh, const Vec3<W>& guess, const RayFrame<W>& frame,
@@ -250,7 +251,7 @@ requires(declared_by<Core>.facets) struct Facets<W, Core> {
   }
 
   /// Sine below which a facet counts as seen edge-on. For rounded hulls, such a facet counts as
-  /// facing away: the line crosses the facet's moved plane a thousand radii from it.
+  /// facing away: the line crosses the facet's moved plane a thousand radii from the facet.
   static constexpr T least_facing = T(1) / T(1024);
   /// Limit of steps. Without rounding, walks in regular triangulations always end, and are short
   /// from a near start. If a walk is longer, the cast continues without known facets.

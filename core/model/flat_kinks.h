@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Handles flat summands (disks) in sums of ellipsoids. Where the direction crosses a disk's axis,
-// the support point jumps to the opposite side of the disk, and so does Newton's method. If a step
-// crosses the axis, the next direction is the axis itself.
+// the support point jumps to the opposite side of the disk, so Newton's method jumps, too. If a
+// step crosses the axis, the next direction is the axis itself.
 #pragma once
 
 #include "core/model/sum_features.h"

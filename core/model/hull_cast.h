@@ -25,8 +25,8 @@ template <class W>
 struct HullCastHit {
   Vec3<W> m = Vec3<W>::Zero();     ///< of unit length
   Mask<W> found = Mask<W>(false);  ///< hit or separation is certain; otherwise m is the best known
-  std::array<W, 3> weights = {
-      W(0), W(0), W(0)};  ///< of the other bodies; with that of the newest, the sum is 1
+  /// Weights of the other bodies. The newest body's weight is 1 minus their sum.
+  std::array<W, 3> weights = {W(0), W(0), W(0)};
   W height = W(std::numeric_limits<Lane<W>>::infinity());  ///< height of the hull's plane
 };
 
@@ -58,8 +58,8 @@ class HullCast {
     return hit_;
   }
 
-  /// Same as solve(), if the hit is known in some lanes. In the others, it is likely to be between
-  /// the newest body and the first of the other bodies.
+  /// Same as solve(), if the hit is known in some lanes. In the other lanes, the hit is likely to
+  /// be between the newest body and the first of the other bodies.
   HullCastHit<W> solve_from(const HullCastHit<W>& known) {
     hit_ = known;
     if (!all(hit_.found)) edge({newest_, W(0), nowhere(), Mask<W>(true)}, other(0));

@@ -26,7 +26,7 @@ struct ModelHit {
 template <class W>
 struct LineHit {
   Mask<W> hit = Mask<W>(false);
-  Mask<W> miss = Mask<W>(false);  ///< neither hit nor miss: exhausted
+  Mask<W> miss = Mask<W>(false);  ///< if neither `hit` nor `miss` is set: exhausted
   /// Exhausted since the line is tangent to the shape within rounding; `normal` is that of the
   /// tangent plane.
   Mask<W> tangent = Mask<W>(false);
@@ -51,7 +51,7 @@ LineHit<W> pick(const Mask<W>& condition, const LineHit<W>& a, const LineHit<W>&
 
 /// A model may compute in its own frame. All vectors here are in that frame, except the result's
 /// normal, which is in the shape's frame. Members of a model:
-/// - `to_frame(n)`, `to_shape(n)`: convert a direction from the shape's frame to the model's, and
+/// - `to_frame(n)`: converts a direction from the shape's frame to the model's; `to_shape(n)`:
 /// back;
 /// - `against_ray(n)`: the component of n against the ray's direction;
 /// - `begin(half_extents)`: the ModelHit before the first support call: a first direction, and a
@@ -151,7 +151,7 @@ Vec3<W> normal_on_ellipsoid(const Vec3<Lane<W>>& radii, const Vec3<W>& s, const 
   const Vec3<W> to_ball = widen<W>(Vec3<Lane<W>>(radii.cwiseInverse()));
   const Vec3<W> r_ball = unit<W>(r.cwiseProduct(to_ball));
   const Vec3<W> s_ball = s.cwiseProduct(to_ball);
-  // Uses cross products, which keep the digits of components that are negligible next to others.
+  // Uses cross products, which keep the digits of small components.
   const Vec3<W> crosswise = r_ball.cross(s_ball.cross(r_ball));
   const W den = W(1) - crosswise.squaredNorm();
   meets = den > W(0);
@@ -162,8 +162,8 @@ Vec3<W> normal_on_ellipsoid(const Vec3<Lane<W>>& radii, const Vec3<W>& s, const 
   return all(some) ? n : select<W>(some, n, Vec3<W>(-r));
 }
 
-/// Returns approximately the same for a shape with these half extents: a first direction, of unit
-/// length, for the support mapping. Extents that are negligible compared with the largest are
+/// Returns approximately that normal for any shape with these half extents. A first direction, of
+/// unit length, for the support mapping. Extents that are negligible compared with the largest are
 /// increased slightly.
 template <class W>
 Vec3<W> normal_on_extents(const Vec3<Lane<W>>& half_extents, const Vec3<W>& s, const Vec3<W>& r) {

@@ -15,7 +15,7 @@ struct CastLanes {
   Mask<W> hit = Mask<W>(false);
   Mask<W> inside = Mask<W>(false);
   Mask<W> miss = Mask<W>(false);
-  /// Hit without an upper bound by points of the shape.
+  /// Hits of the model whose t has no upper bound by points of the shape.
   Mask<W> by_model = Mask<W>(false);
   /// Inside, but between planes so nearly parallel to the ray that rounding decides, as for a line
   /// within a face.
@@ -70,8 +70,8 @@ CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
     const Vec3<W> pushed = s - found.normal * W(tolerance::tangent_push<T> * R);
     LineHit<W> again = first_along(pushed, direction, until, found.tangent, sign);
     again.supports += found.supports;
-    // If the shape is thinner than the push, the new line passed the shape on the other side; this
-    // proves no miss.
+    // If the shape is thinner than the push, the new line may pass the shape on the other side.
+    // This does not prove that the original line misses.
     again.miss &= !(again.normal.dot(found.normal) < W(0));
     // The hit is where the original line crosses the plane that was found. This is later than the
     // new line's hit, but not beyond the end of the shape or the ray.

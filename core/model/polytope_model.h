@@ -2,8 +2,8 @@
 // The model for polytopes: the hull of up to four vertices. If the ray passes through a triangle of
 // these vertices, the triangle is a "portal"; the normal of its plane is the next direction.
 // Without a portal, vertices are replaced by balls that touch their supporting planes from inside,
-// as on a curved shape; the balls shrink, so that this ends. If the polytope's facets are known,
-// the first portal is the facet that the ray enters.
+// as on a curved shape; the balls shrink, so that the search ends. If the polytope's facets are
+// known, the first portal is the facet that the ray enters.
 #pragma once
 
 #include <array>
@@ -98,14 +98,14 @@ class PolytopeModel {
  private:
   struct Kept {
     Vec3<W> c = Vec3<W>::Zero();
-    Vec3<W> n = Vec3<W>::Zero();  ///< the direction it was found in
+    Vec3<W> n = Vec3<W>::Zero();  ///< direction in which the vertex was found
     Mask<W> valid = Mask<W>(false);
     Mask<W> carries = Mask<W>(false);  ///< carries the last hit
   };
 
-  /// Finds the highest triangle of the newest vertex and two kept vertices that the ray passes
-  /// through; m is its normal. If the newest vertex was found before, only rounding prevents
-  /// progress, so a ray that touches an edge counts as passing through.
+  /// Considers the triangles of the newest vertex and two kept vertices. Finds the highest of those
+  /// that the ray passes through; m is its normal. If the newest vertex was found before, only
+  /// rounding prevents progress, so a ray that touches an edge counts as passing through.
   Mask<W> portal(const Vec3<W>& newest, const Mask<W>& repeated, Vec3<W>& m) {
     using std::max;
     using std::min;

@@ -29,15 +29,15 @@ class ShapeDefinition {
   ModelKind model() const { return model_; }
   /// Represents the inner shape exactly, if model() is ellipsoid_sum.
   const EllipsoidSum<double>& ellipsoid_sum() const { return ellipsoid_sum_; }
-  /// True if casts at the shape are proven one by one, in double, before they are returned.
+  /// True if each result of a cast at the shape must be proven, in double, before it is returned.
   bool is_extreme() const { return is_extreme_; }
   /// The inner shape's closed form, if it declares one. Extreme shapes have none.
   const exact::Form& form() const { return form_; }
   /// Hits are checked again if the component of their normal against the ray is less than this.
   /// Zero if the surface has neither corners nor flat faces.
   double uncertain_slope() const { return uncertain_slope_; }
-  /// True if the ball's centre is the origin of the shape's own frame. Its position under a pose is
-  /// then the translation of the pose.
+  /// True if the ball's centre is the origin of the shape's own frame. The centre's position under
+  /// a pose is then the translation of the pose.
   bool is_centred() const { return middle_.is_zero(); }
   /// Excess of the rounding of support points over the rounding of their distance from the ball's
   /// centre, a length in the inner frame. Includes the rounding of maps that may have moved all

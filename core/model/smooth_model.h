@@ -117,8 +117,8 @@ class SmoothModel {
   }
 
   /// True if the hit is proven. The carriers' support points, weighted as in the hit, give a point
-  /// p of the shape. p must be nearly on the newest supporting plane and nearly on the ray. Further
-  /// iterations gain at most half the product of the step and p's distance from the ray.
+  /// p of the shape, which must be nearly on the newest supporting plane and nearly on the ray.
+  /// Further iterations gain at most half the product of the step and p's distance from the ray.
   Mask<W> settled(const Feature& feature, const Vec3<W>& n, const HullCastHit<W>& on_hull) const {
     using std::sqrt;
     Vec3<W> p = feature.s;
@@ -130,10 +130,10 @@ class SmoothModel {
   }
 
   /// Shortens a step that leads to a lower plane or clearly overshoots. The new direction is
-  /// between the two ends of the step: where the support point's offset from the ray has no
-  /// component along the step. That direction is interpolated (Hermite) as a function of the
-  /// offset, from the values and Newton steps at both ends. Where curvature vanishes, this function
-  /// is smooth, but its inverse is not.
+  /// between the two ends of the step: there the support point's offset from the ray has no
+  /// component along the step. The direction is interpolated (Hermite) as a function of the offset,
+  /// from the values and Newton steps at both ends. This function is smooth even where curvature
+  /// vanishes; its inverse is not.
   void step_back(const Feature& feature, const Vec3<W>& n, ModelHit<W>& hit) {
     using std::abs;
     using std::max;
@@ -188,9 +188,9 @@ class SmoothModel {
   }
 
   /// For directions perpendicular to the ray (n.z = 0) in which the ray misses the model, too.
-  /// Finds the least reach on this circle of directions: where its derivative changes sign. If a
-  /// step leaves the arc between the two signs, or spans over half of the arc, the secant method
-  /// gives the step.
+  /// Finds the direction on this circle with the least reach, where the derivative of the reach
+  /// changes sign. The search keeps an arc whose ends have different signs. If a step leaves the
+  /// arc, or spans over half of it, the secant method gives the step.
   void stay_between(const Feature& feature, const Vec3<W>& n, ModelHit<W>& hit) {
     using std::abs;
     const Mask<W> on_circle = (abs(n.z()) <= W(tolerance::model_rounding<T>)) &

@@ -40,7 +40,7 @@ class SumFeatures {
     return {features_[0].sum.c, features_[1].sum.c, features_[2].sum.c, features_[3].sum.c};
   }
 
-  /// Adds the newest feature and returns true in lanes where it was there already. Older osculating
+  /// Adds the newest feature; returns true in lanes that already had this feature. Older osculating
   /// features keep their ellipsoids only if they are from other patches and were found in nearly
   /// the same direction.
   Mask<W> add(const Feature& feature, const Vec3<W>& n) {

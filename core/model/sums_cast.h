@@ -66,7 +66,7 @@ class SumsCast {
     Mat3<W> G = Mat3<W>::Zero();  ///< sum of g g^T/h of its summands
   };
 
-  /// The direction with the lowest supporting plane so far.
+  /// The direction whose supporting plane is the lowest so far.
   struct Lowest {
     Vec3<W> m = Vec3<W>::Zero();
     W height = W(std::numeric_limits<T>::infinity());
@@ -191,7 +191,8 @@ class SumsCast {
   }
 
   /// For one feature. If the plane of direction m is higher than the lowest one so far, takes only
-  /// a part of the step from the lowest: to the minimum of the parabola through the known values.
+  /// a part of the step from the lowest plane's direction: to the minimum of the parabola through
+  /// the known values.
   /// If a step leads past the shape, takes the step of an ellipsoid that contains the sum and
   /// touches it in this direction, A = sum h_k sum A_k/h_k; this step cannot be too long. Returns
   /// the lanes whose plane is higher.
@@ -225,7 +226,7 @@ class SumsCast {
   /// Keeps `certain` set only if the solution is the model's hit up to rounding: the planes of all
   /// carriers agree, no feature reaches further, and the carriers' support points combine to a
   /// point on the ray. Osculating carriers use the support points of the shape in the directions
-  /// where they were found, since their own prove nothing.
+  /// where they were found, since the ellipsoids' own support points prove nothing.
   void judge(Solution& solution, const Mask<W>& common, const Mask<W>& at_kink) const {
     using std::max;
     const Vec3<W>& m = solution.m;

@@ -49,8 +49,8 @@ class SumsModel {
     if (iteration >= 3) shrink_ *= W(T(0.5));
     const SumsCast<W> cast(features_, R_, surrogate_, shrink_);
     SumsHit<W> found = cast.solve(n);
-    // Ellipsoids that osculate in other directions may be wrong, and stop the search at this
-    // direction.
+    // Ellipsoids that osculate in other directions may be wrong here, so the search may stop at a
+    // direction that is not the hit's.
     const Mask<W> stalls =
         (!found.certain) & ((found.m - n).squaredNorm() <= W(tolerance::epsilon<T>));
     if (any(stalls)) {

@@ -2,7 +2,7 @@
 // The model of a superellipsoid is the shape itself. Its gauge along the ray is a convex function
 // of one variable, with value 1 where the ray meets the surface. The gauge's gradient there is the
 // normal, and one support call in this direction proves the hit. If the least gauge is above 1, two
-// of its tangents that cross above 1 give a separating plane. docs/forms.md, section 9.
+// tangents of the gauge that cross above 1 give a separating plane. docs/forms.md, section 9.
 #pragma once
 
 #include "core/model/line_cast.h"
@@ -96,7 +96,8 @@ class SuperellipsoidModel {
     Vec3<W> gradient;
   };
 
-  /// Crossing of two tangents on either side of the least gauge, which bounds the gauge from below.
+  /// Crossing of two tangents, one on either side of the least gauge. The crossing bounds the gauge
+  /// from below.
   /// A weighted mean of the tangents is constant along the ray; its gradient is the normal of a
   /// plane along the ray.
   static Crossing crossing(const Tangent& left, const Tangent& right, const Mask<W>& both) {
@@ -106,8 +107,8 @@ class SuperellipsoidModel {
             Vec3<W>((left.gradient * right.slope + right.gradient * fall) / sum)};
   }
 
-  /// Returns the unit component perpendicular to the ray; if it is zero, the direction against the
-  /// ray.
+  /// Returns the component perpendicular to the ray, scaled to unit length. If the component is
+  /// zero, returns the direction against the ray.
   Vec3<W> across(const Vec3<W>& n) const {
     const Vec3<W> crosswise = unit<W>(Vec3<W>(n - r_ * n.dot(r_)));
     return select<W>(crosswise.squaredNorm() > W(0), crosswise, Vec3<W>(-r_));
@@ -184,8 +185,7 @@ class SuperellipsoidModel {
 
       lower = select(falls, max(lower, tangent_zero), lower);
       upper = select(falls & outside, upper, min(upper, lambda));
-      // If a bound is beyond the least gauge, it proves a miss, but does not locate the least
-      // gauge.
+      // A bound beyond the least gauge proves a miss, but does not locate the least gauge.
       const Mask<W> in_order = lower < upper;
       const W from = select(in_order, lower, left.lambda);
       const Mask<W> fits = (next > from) & (next < upper), creeps = in_order & (next <= from);

@@ -168,8 +168,8 @@ class TranslatesModel {
  private:
   using Known = Facets<W, typename Bodies::Core>;
 
-  /// Returns the hit on the hull of the kept features and this one, which is not among the kept.
-  /// Then keeps only the features that carry the hit.
+  /// Returns the hit on the hull of the kept features and `feature`, which must not be one of the
+  /// kept. Then keeps only the features that carry the hit.
   ModelHit<W> keep(const Feature& feature, const HullCastHit<W>& on_hull) {
     ModelHit<W> hit;
     hit.m = on_hull.m;

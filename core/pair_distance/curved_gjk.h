@@ -2,8 +2,8 @@
 // Distance of two cores by GJK on C = B - A (core_pair.h). GJK keeps up to four points of C, finds
 // the point d of their hull closest to the origin, and adds the point c of C with the least d.c. On
 // curved surfaces GJK converges linearly, so after a few iterations flat ends (flat_ends.h) and
-// sliding features (sliding_features.h) take over. The plane through c gives a lower bound, d an
-// upper bound; the loop ends when the bounds meet.
+// sliding features (sliding_features.h) take over. The plane through c gives a lower bound, the
+// point d an upper bound; the loop ends when the bounds meet.
 #pragma once
 
 #include "core/pair_distance/flat_ends.h"

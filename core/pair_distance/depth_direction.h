@@ -25,9 +25,10 @@ class DepthDirection {
   int supports() const { return query_.result.supports; }
 
   /// Finds four points of C that enclose the origin, which is close to C's surface: three around
-  /// the direction of least depth (searched from `from`), and the point of C furthest from them.
-  /// The three are so close to each other that their plane cuts off at most `gap` of C, unless the
-  /// depth requires larger distances. `is_sure(enclosure)` decides if four points are accepted.
+  /// the direction of least depth (searched from `from`), and the point of C furthest from these
+  /// three. The three are so close to each other that their plane cuts off at most `gap` of C,
+  /// unless the depth requires larger distances. `is_sure(enclosure)` decides whether four points
+  /// are accepted.
   template <class IsSure>
   bool enclose(const Vec3<double>& from, double gap, Enclosure& enclosure, const IsSure& is_sure) {
     SlidingFeatures<CoreKind::other, CoreKind::other> features(query_);

@@ -46,8 +46,8 @@ struct DirectionSample {
   PlainVector n, c;
 };
 
-/// All directions between three corners, and the support points that bound g there: support points
-/// in the corners, and in directions where the bound was largest.
+/// All directions between three corners, and the support points that bound g there: those in the
+/// directions of the corners, and in directions where the bound was largest.
 struct DirectionCell {
   static constexpr int most_points = 8;
   std::array<DirectionSample, 3> corners;  ///< counter-clockwise from outside
@@ -139,8 +139,8 @@ class DirectionCellBound {
       return most + std::abs(most) * turn;
     }
   };
-  // Three at corners, two on sides for each pair of points (signs change twice around a triangle,
-  // or not at all), and one for each three points.
+  // At corners three candidates; on sides two for each pair of points (signs change twice around a
+  // triangle, or not at all); one for each three points.
   static constexpr int most_candidates = 3 + 2 * 28 + 56;
 
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
@@ -171,8 +171,8 @@ class DirectionCellBound {
   /// Adds the candidate where n.p = n.q = n.r, if it is in the cell or just outside. If the points
   /// are collinear, the middle point bounds nothing. For slivers, rounding turns n considerably.
   /// This only matters if the foot of the origin on the points' plane is in their triangle;
-  /// otherwise u is larger at another candidate. The foot, and up to the square of the turn also
-  /// the plane, is no further along n than the furthest of the three points.
+  /// otherwise u is larger at another candidate. Along n, the foot reaches no further than the
+  /// furthest of the three points; so does the plane, up to the square of the turn.
   void add_triple(const PlainVector& p, const PlainVector& q, const PlainVector& r) {
     constexpr double in_line = 1e-12, beside = 1e-3;
     // Rounding of a cross product, relative to the product of its factors' lengths.

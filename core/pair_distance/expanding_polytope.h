@@ -18,8 +18,8 @@ namespace minkray {
 /// closed surface that winds around the origin once, and so around all points nearer to the origin
 /// than d. These points are in the hull of the vertices, which are points of C. Growing preserves
 /// this: a point w may replace a face if some plane that does not contain the origin has neither w
-/// nor the face's points on the origin's side. So any normal n gives a valid d, the least n.y of
-/// the three vertices.
+/// nor the face's points on the origin's side. So for each face, any unit vector n gives a
+/// valid d: the least n.y of the face's three vertices y.
 template <CoreKind A, CoreKind B>
 class ExpandingPolytope {
  public:
@@ -31,8 +31,8 @@ class ExpandingPolytope {
   }
 
   /// Grows from four points c of C that enclose the origin; `a` has the corresponding points of A.
-  /// Returns true if the bounds have met; both hold in any case. The result's a and c are then the
-  /// points at the depth: c = upper * axis.
+  /// Returns true if the bounds have met; the result's a and c are then the points at the depth: c
+  /// = upper * axis. The bounds hold even if the result is false.
   bool run(const Vec3<double>* c, const Vec3<double>* a) {
     if (!start(c, a)) return false;
     while (found_.supports < most_supports) {
@@ -77,7 +77,7 @@ class ExpandingPolytope {
     Vec3<double> n;
     double d;
     int corner[3];
-    int beside[3];  ///< at the edge after corner k: 4 * neighbour's face + its edge
+    int beside[3];  ///< beyond the edge after corner k: 4 * other face + that face's edge
     bool is_there;
   };
   struct Heaped {
@@ -226,7 +226,7 @@ class ExpandingPolytope {
   }
 
   /// Sets the best plane, and the surface point nearest to the origin. If several faces lie in that
-  /// plane, any of them may contain this point.
+  /// plane, this point may be in any of the faces.
   bool finish(double height, const Vec3<double>& axis) {
     found_.status = CoreStatus::overlapping;
     found_.lower = height;

@@ -44,8 +44,8 @@ bool flat_end(CoreQuery<A, B>& query, const ShapeCore& disks, const ShapeCore& o
 
 }  // namespace detail
 
-/// Tries the flat end of each core that faces the other core along d, the direction from A to B.
-/// Returns true if one gave a result.
+/// Tries each flat end that faces the other core; d is the direction from A to B. Returns true if a
+/// flat end gave a result.
 template <CoreKind A, CoreKind B>
 bool try_flat_ends(CoreQuery<A, B>& query, const Vec3<double>& d) {
   const CorePair& pair = query.pair;

@@ -2,8 +2,8 @@
 // Contact manifold: up to four contact points of two shapes. With only one point, a resting box
 // would tip over. Support points in directions tilted slightly from the normal are the corners of
 // each shape's part that faces the other shape. The two polygons, projected along the normal, are
-// clipped (I. Sutherland, G. Hodgman, "Reentrant Polygon Clipping", 1974). At most four corners
-// with the largest area are kept.
+// clipped (I. Sutherland, G. Hodgman, "Reentrant Polygon Clipping", 1974). Of the corners, at most
+// four are kept: those that span the largest area.
 #pragma once
 
 #include <array>
@@ -26,7 +26,8 @@ struct ContactManifold {
 };
 
 struct ManifoldOptions {
-  double tilt = 0.02;  ///< in radians; faces at larger angles touch only at edges or corners
+  /// Angle in radians. Faces at a larger angle to each other touch only at edges or corners.
+  double tilt = 0.02;
   /// Omits pairs of points whose distance exceeds that of the nearest pair by more than this times
   /// the size of the smaller shape.
   double within = 0.02;

@@ -72,13 +72,13 @@ struct SignedDistanceOptions {
   /// Distance beyond which a lower bound is enough: `upper` may then be infinite, and `value`
   /// equals `lower`.
   double at_most = std::numeric_limits<double>::infinity();
-  /// Only decides if the shapes overlap, without computing the depth. If they do, `lower` is
+  /// Only decides whether the shapes overlap, without computing the depth. If they do, `lower` is
   /// -infinity, or any bound that the search happened to find.
   bool only_sign = false;
   /// Maximum number of support points for branch and bound, the last method, which runs if all
-  /// others fail. The contact points then cost some tens of support points more. If all directions
-  /// are equally good, no limit is large enough for ten digits: for example, a point at the centre
-  /// of a ball that is known only by its support mapping.
+  /// others fail. In addition, the contact points then cost some tens of support points. If all
+  /// directions are equally good, no limit is large enough for ten digits: for example, a point at
+  /// the centre of a ball that is known only by its support mapping.
   int max_supports = 50000;
   /// Also makes the normal and the points of curved shapes accurate to about 1e-9, which
   /// derivatives of the distance need. Costs less than a `tolerance` that has the same effect.
@@ -87,8 +87,8 @@ struct SignedDistanceOptions {
 
 /// Returns the signed distance of A and B. The poses must be rigid. The bounds include all rounding
 /// errors: 16 machine epsilons times the sum of the shapes' sizes and the distance of their middles
-/// (a middle is the centre of a shape's core). This holds however far the shapes are from the
-/// world's origin. If a middle is not the origin of the shape's own frame, the rounding of the
+/// (a middle is the centre of a shape's core). The bounds hold however far the shapes are from
+/// the world's origin. If a middle is not the origin of the shape's own frame, the rounding of the
 /// middle's position is added.
 SignedDistance signed_distance(const ContactShape& a, const Affine<double>& pose_a,
                                const ContactShape& b, const Affine<double>& pose_b,

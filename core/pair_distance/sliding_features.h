@@ -29,8 +29,8 @@ class SlidingFeatures {
     append(feature_a, feature_b, weight);
   }
 
-  /// Searches from the direction d. `damping` (relative to the size) is the damping of the first
-  /// step, which pairs of a face and a rim need. Returns true if a result was found.
+  /// Searches from the direction d. `damping` (relative to the size) damps the first step; pairs
+  /// of a face and a rim need this. Returns true if a result was found.
   bool run(const Vec3<double>& d, double damping);
 
   /// For overlapping cores: finds a direction near d where the gap has a local maximum, to about
@@ -45,7 +45,7 @@ class SlidingFeatures {
 
   /// Finds the direction of settle() up to rounding, by Newton's method from a direction that is
   /// off by less than `turn`. The maximum may be a peak on one feature, on the crease of two, or at
-  /// a corner of more. Returns true if it was found.
+  /// a corner of more. Returns true if the maximum was found.
   bool sharpen(const Vec3<double>& d, double turn);
   /// Points found by sharpen(): a point of A, and the vector from this point to a point of B.
   const Vec3<double>& sharp_a() const { return sharp_a_; }

@@ -145,8 +145,8 @@ class Polytope::Maker {
     }
     const double room = static_cast<double>(least) / made_.radius_;
     if (!(room > tolerance::rounded_polytope_height)) return false;
-    // A feature that seems to fall away may in fact rise. If it is adjacent, it rises by no more
-    // than rounding; if it is further away, by proportionally more.
+    // A feature that seems to fall away may in fact rise due to rounding: by no more than rounding
+    // if the feature is adjacent, and by proportionally more if it is further away.
     made_.radius_ += made_.tables_.rounded_by;
     made_.rounding_ = tolerance::polytope_rounding * made_.radius_ + 2 * made_.rounding_ / room;
     return true;
@@ -247,8 +247,8 @@ class Polytope::Maker {
     return plane.offset - lowest;
   }
 
-  /// Uses a neighbour's plane if the corners are as near to this plane as to the triangle's own, or
-  /// within rounding.
+  /// Uses a neighbour's plane for the triangle if the corners are as near to the neighbour's plane
+  /// as to the triangle's own, or if their distance from the neighbour's plane is within rounding.
   void choose_plane(std::size_t f) {
     const Triangle& triangle = triangles_[f];
     const bool has_normal = own_[f].normal.squaredNorm() > 0;

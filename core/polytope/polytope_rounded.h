@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Finds where a line enters a polytope that is grown by a radius: at a face moved outwards, the
-// cylinder around an edge or the ball around a vertex. A feature supports if no neighbour rises
-// above it at its contact. Walks from feature to feature (Lin and Canny, "A Fast Algorithm for
-// Incremental Distance Calculation", 1991) to the one that supports. One line and packets share
-// this code.
+// cylinder around an edge or the ball around a vertex. A feature supports if, at the feature's
+// contact, no neighbour rises above it. Walks from feature to feature (Lin and Canny, "A Fast
+// Algorithm for Incremental Distance Calculation", 1991) to the one that supports. One line and
+// packets share this code.
 #pragma once
 
 #include "core/polytope/polytope_walk.h"
@@ -189,8 +189,8 @@ class RoundedWalk {
     const W at = s_along + d_along * found.t;
     leave(at < W(0), feature::vertex, here);
     leave(at > length(edge), feature::vertex, next(edge));
-    // The edge supports if both adjacent triangles fall away from its contact. If these two are in
-    // one plane, the triangles beyond them must fall away, too.
+    // The edge supports if both adjacent triangles fall away from the edge's contact. If these two
+    // are in one plane, the triangles beyond them must fall away, too.
     if (!any(which)) return;
     const W other = twin(edge);
     const W rise = found.out.dot(inwards(edge));

@@ -21,7 +21,7 @@ struct PolytopeTables {
   /// that follows the twin, with a minus sign if that half-edge is the last of its triangle.
   static constexpr std::size_t walk_row = 4;
   std::vector<double> walk;
-  std::vector<std::int32_t> links;  ///< copy of the fourth column
+  std::vector<std::int32_t> links;  ///< copy of the fourth column of `walk`
 
   /// One row per half-edge: its origin (3 numbers), the next half-edge; a unit vector into the
   /// triangle, perpendicular to the edge (3), the twin; the unit vector along the edge (3), the

@@ -11,9 +11,9 @@
 
 namespace minkray::exact {
 
-/// End of a walk. If `through`, in a triangle that the line passes through, clearly or within
-/// rounding. If the line misses, at an edge of the outline. If neither mask is set, the walk
-/// failed.
+/// End of a walk. `in_triangle`: the walk ended in a triangle that the line passes through; with
+/// `is_clear`, by more than rounding. `past_edge`: the walk ended at an edge of the outline, and
+/// the line misses. If neither is set, the walk failed.
 template <class W>
 struct WalkEnd {
   Mask<W> in_triangle = Mask<W>(false), is_clear = Mask<W>(false), past_edge = Mask<W>(false);
@@ -68,7 +68,8 @@ WalkEnd<W> follow(const PolytopeTables& of, const Line<W>& line, Mask<W> open) {
   using std::abs;
   const View<W> view(line);
   std::array<Seen<W>, 3> p;
-  // The triangle's half-edges; for each, twice the area of its triangle with the projected line.
+  // The triangle's half-edges; for each, twice the area of the triangle that the half-edge and the
+  // projected line form.
   std::array<W, 3> edge, side;
   const auto begin_at = [&](const W& first) {
     for (std::size_t k = 0; k < 3; ++k) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Checker of certificates: decides in double if a certificate proves a claim, using only support
-// points. Shares no code with the solvers; docs/certificates.md derives the tests.
+// Checker of certificates: decides in double whether a certificate proves a claim, using only
+// support points. Shares no code with the solvers; docs/certificates.md derives the tests.
 #pragma once
 
 #include <string_view>
@@ -18,14 +18,14 @@ inline constexpr double certificate_rounding = 64;
 /// Result of the checker. Lengths are in units of the scene.
 struct CertificateVerdict {
   bool holds = false;
-  std::string_view complaint;  ///< the first condition that fails; empty if it holds
+  std::string_view complaint;  ///< the first condition that fails; empty if all hold
 
   /// Hit: t lies in t_base + [offset_lo, offset_hi]. The interval includes the rounding of planes
-  /// and of the spanned point perpendicular to the plane, which is larger along the ray.
+  /// and of the spanned point. This rounding is perpendicular to the plane, and larger along the
+  /// ray.
   double t_base = 0, offset_lo = 0, offset_hi = 0;
-  double offset_planes = 0;  ///< hit: where the ray crosses the last plane
-  double offset_spanned =
-      0;               ///< hit: at the spanned point; due to rounding, may be before the planes
+  double offset_planes = 0;   ///< hit: where the ray crosses the last plane
+  double offset_spanned = 0;  ///< hit: at the spanned point; rounding may put it before the planes
   double gap = 0;      ///< hit: depth of the spanned point below the plane, (t_hi - t_lo) * cosine
   double lateral = 0;  ///< distance of the spanned point from the ray (hit) or origin (inside)
   double margin = 0;   ///< miss: distance from the plane to the ray; negative if they cross

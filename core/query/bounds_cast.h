@@ -10,9 +10,9 @@
 
 namespace minkray {
 
-/// A ray's line relative to the middle of a shape's bounds, in the shape's frame. `origin_size` and
-/// `direction_size` are sums of the absolute values of the summands that gave the vector; rounding
-/// is relative to these sums.
+/// A ray's line relative to the middle of a shape's bounds, in the shape's frame. Origin and
+/// direction are sums; `origin_size` and `direction_size` are the sums of the summands' absolute
+/// values, to which rounding is relative.
 template <class W>
 struct LineFromCentre {
   Vec3<W> origin, direction;

@@ -6,12 +6,13 @@
 
 namespace minkray {
 
-/// v is the normal of a supporting plane that separates the shape from the ray beyond its point x
-/// (v.r >= 0). `behind` is the normal of a second supporting plane, which the ray crosses at x or
-/// before, and which separates the shape from the ray before x (behind.r < 0). A weighted sum of
-/// the two normals is perpendicular to the ray, and gives a plane that separates shape and ray. At
-/// x, the height above the first plane is positive, and the height above the second is not
-/// negative. The weighted sum of the heights is constant along the ray.
+/// Let x be a point of the ray, which has the direction r. v is the normal of a supporting plane
+/// that separates the shape from the part of the ray beyond x (v.r >= 0). `behind` is the normal of
+/// a second supporting plane, which the ray crosses at x or before, and which separates the shape
+/// from the part before x (behind.r < 0). Returns a weighted sum of the two normals that is
+/// perpendicular to the ray: the normal of a plane between shape and ray. Proof: at x, the height
+/// above the first plane is positive, and the height above the second is not negative. The weighted
+/// sum of the heights is constant along the ray.
 template <class T>
 Vec3<T> joined_plane(const Vec3<T>& v, const Vec3<T>& behind, const Vec3<T>& r) {
   const T v_r = v.dot(r), behind_r = behind.dot(r);

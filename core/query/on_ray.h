@@ -10,7 +10,7 @@
 
 namespace minkray {
 
-/// Moves t to the nearer end of the ray if rounding put it beyond that end.
+/// Moves t to the nearer end of the ray if rounding put t beyond that end.
 template <class W, class Answer>
 [[gnu::always_inline]] inline void keep_on_ray(const Ray<W>& ray, Answer& answer) {
   using std::abs;

@@ -28,8 +28,8 @@ struct RayNearBall {
   W loss = W(0);
 
   W t_offset(W lambda) const { return t_shift + lambda * t_per_length; }
-  /// Rounding error of an offset: the sum of the errors of its two parts, of their sum, and of the
-  /// length.
+  /// Rounding error of an offset: the sum of the errors of the offset's two parts, of their sum,
+  /// and of the length.
   W offset_rounding(W offset) const {
     using std::abs;
     return (abs(t_shift) + abs(offset)) * W(tolerance::offset_rounding<Lane<W>>);
@@ -76,7 +76,7 @@ struct RayNearBall {
     return mapped_by(linear, length, correction);
   }
 
-  /// Also returns the new length of r, and the shift of the closest approach along it.
+  /// Also returns the new length of r, and the shift of the closest approach along r.
   template <class M>
   [[gnu::always_inline]] RayNearBall mapped_by(const Mat3<M>& linear, W& safe_length,
                                                W& correction) const {
@@ -178,9 +178,10 @@ RayNearBall<double> ray_near_with_fma(const TwoFoldVec3<double>& centre, const R
 }  // namespace detail
 
 /// Moves the ray to its point closest to `centre`, which is a Vec3 or a TwoFoldVec3 of lanes. Takes
-/// two steps, since the rounding of the first step's parameter grows with the origin's distance. s
-/// is rounded only relative to the centre (unless the centre is two-fold) and to the shape's size:
-/// fma rounds once, and steps are along the direction as given, not along a rounded unit vector.
+/// two steps, since the rounding of the first step's parameter grows with the origin's distance.
+/// The rounding of s is relative to the centre's coordinates (unless the centre is two-fold) and to
+/// the shape's size, not to the origin's distance: fma rounds once, and steps are along the
+/// direction as given, not along a rounded unit vector.
 template <class W, class Centre>
 requires(std::is_same_v<Centre, Vec3<Lane<W>>> ||
          std::is_same_v<Centre, TwoFoldVec3<Lane<W>>>) RayNearBall<W> ray_near(const Centre& centre,
@@ -198,8 +199,8 @@ requires(LaneOf<W>::count > 1) RayNearBall<W> ray_near(const Vec3<W>& centre, co
   return detail::ray_near_here<W>(centre, ray);
 }
 
-/// Moves one ray whose origin is further away than far_origin, with more digits. Beyond
-/// farthest_origin, even these digits do not suffice.
+/// Same, in long double, for one ray whose origin is further away than far_origin. Beyond
+/// farthest_origin, even long double has too few digits.
 inline RayNearBall<double> ray_near_from_afar(const TwoFoldVec3<double>& centre,
                                               const Ray<double>& ray) {
   using Finer = long double;

@@ -69,8 +69,8 @@ struct CastResult {
   /// prepared pose. On the path `filter` the bounds are the closed form's error bound. Otherwise
   /// the lower bound comes from a supporting plane, and the upper bound from support points that
   /// the ray passes between; both include rounding. The upper bound is infinite if no such points
-  /// were found, for example if the ray passes within rounding of an edge, and for a solver chosen
-  /// by name.
+  /// were found, for example if the ray passes within rounding of an edge, or if the caller chose a
+  /// solver by name.
   T offset_lo = T(0);
   T offset_hi = std::numeric_limits<T>::infinity();
 

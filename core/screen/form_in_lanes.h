@@ -43,7 +43,7 @@ struct FormInLanes {
   std::array<W, 4> sizes;
   W slope, sine, R, least, extent, up;
   Vec3<W> scale, offset;
-  const std::vector<float>* planes = nullptr;  ///< the same for all lanes
+  const std::vector<float>* planes = nullptr;  ///< planes of a polytope, the same for all lanes
 
   /// Uses the same form in all lanes.
   explicit FormInLanes(const Screen& screen) : FormInLanes(screen.form) {

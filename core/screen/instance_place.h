@@ -16,7 +16,7 @@ namespace minkray {
 struct alignas(64) InstancePlace {
   double origin[3];
   float to_inner[9];   ///< column by column, rounded to nearest
-  std::uint32_t body;  ///< index of the InstanceBody, or a number for instances without one
+  std::uint32_t body;  ///< index of the InstanceBody; for instances without a body, a special value
 };
 static_assert(sizeof(InstancePlace) == 64);
 

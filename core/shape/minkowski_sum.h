@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The Minkowski sum of shapes: all sums of one point of each.
+// The Minkowski sum of shapes: all sums of one point of each shape.
 #pragma once
 
 #include "core/math/vec.h"

@@ -120,8 +120,8 @@ struct Superellipsoid {
   /// Lower limit of coordinates that are divisors in the second derivative, which is infinite on
   /// the coordinate planes for p < 2.
   static constexpr double least_curvature = 1.0 / 4096;
-  /// Lower limit of g. For p up to 4, the osculating ellipsoid is at most about 1/least_of_jet
-  /// times as long as the shape.
+  /// Lower limit of |g_i| in jets. For p up to 4, the osculating ellipsoid is at most about
+  /// 1/least_of_jet times as long as the shape.
   static constexpr double least_of_jet = 1.0 / 256;
 };
 

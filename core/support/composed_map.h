@@ -15,7 +15,8 @@ inline constexpr double rounding_of_turns = 4 * std::numeric_limits<double>::eps
 /// Rounding error of arithmetic with twice the digits, relative to the summands.
 inline constexpr double two_fold_rounding = 0x1p-100;
 
-/// True if each row has at most one nonzero entry. The entries of such a rotation are exact.
+/// True if each row has at most one nonzero entry. If such a map is a rotation, its entries are
+/// exact.
 inline bool is_along_axes(const Mat3<double>& linear) {
   for (int i = 0; i < 3; ++i)
     if ((linear.row(i).array() != 0).count() > 1) return false;

@@ -12,11 +12,12 @@ struct Declared {
   bool slabs = false;
   /// The shape is a polytope. `points.facets()` returns its facets, or null.
   bool facets = false;
-  /// The surface is smooth. `gauge_along(u, v, lambda)` returns the gauge at points of a line.
+  /// The surface is smooth. `gauge_along(u, v, lambda)` returns the gauge (the least factor by
+  /// which the shape must be scaled to contain a point) at points of a line.
   bool gauge = false;
   /// support_where(wanted, n) equals support(n) in wanted lanes, and costs less if few are wanted.
   bool support_where = false;
-  /// The calling program provides the shape; files cannot contain it.
+  /// The calling program provides the shape; files cannot contain such shapes.
   bool by_program = false;
 };
 
