@@ -60,7 +60,7 @@ class EllipsoidSumModel {
     const Vec3<W> n_frame = smooth_->to_frame(n);
     ModelHit<W> hit = smooth_->step(smooth_->support(n_frame, Mask<W>(true)), n_frame, iteration);
     hit.m = smooth_->to_shape(hit.m);
-    // Of all directions across the ray, the requested direction has the least support function.
+    // Among directions across the ray, the support function is least in the requested direction.
     hit.repeated |= across_;
     // The plane confirms the hit up to rounding, but is so nearly parallel to the ray that rounding
     // is large along the ray. The next direction shows whether the ray is tangent.

@@ -28,10 +28,10 @@ inline constexpr std::array solver_descriptions = {
     SolverDescription{SolverKind::paper, "paper",
                       "the GJK ray cast, Algorithm 3 of van den Bergen (2004)"},
     SolverDescription{SolverKind::jet, "jet",
-                      "approximates the shape by a few osculating ellipsoids; the result is "
-                      "accurate to rounding"},
+                      "casts at a few osculating ellipsoids that approximate the shape; the "
+                      "result is accurate to rounding"},
     SolverDescription{SolverKind::portal, "portal",
-                      "refines a portal: a triangle of support points that the ray crosses"},
+                      "refines a portal, a triangle of support points that the ray crosses"},
     SolverDescription{SolverKind::first_solution, "first-solution",
                       "Algorithm 1 of van den Bergen (2004), a slow reference"},
     SolverDescription{SolverKind::paper_johnson, "paper-johnson",

@@ -82,10 +82,10 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
       .one_value_each()
       .group(group);
   verb.add_flag("--lenient", options.lenient,
-                "Skip invalid shapes and materials; minkray info lists them")
+                "Skip invalid shapes and materials (minkray info lists the skipped ones)")
       .group(group);
   verb.add_flag("--skip-missing-meshes", options.skip_missing_meshes,
-                "Skip missing mesh files; minkray info reports their number")
+                "Skip missing mesh files (minkray info reports the number)")
       .group(group);
   return verb.add_flag("-v,--verbose", options.verbose,
                        "Report each step and its time; list all missing meshes");

@@ -269,8 +269,9 @@ void add_cast(Parser& parser, ExitCode& exit_code) {
   verb.add_flag("--trace", options->trace, "Add every solver iteration to the results");
   verb.add_flag("--certify", options->certify,
                 "Prove the result of every cast; exit with 1 if a proof fails");
-  verb.add_flag("--check", options->check,
-                "Compare each result with \"expect\" of its query; exit with 1 on any difference");
+  verb.add_flag(
+      "--check", options->check,
+      "Compare each result with the value \"expect\" in its query; exit with 1 on any difference");
   verb.on_call([options, &exit_code] {
     with_threads(options->threads, [&] { exit_code = cast(*options); });
   });

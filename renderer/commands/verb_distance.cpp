@@ -283,10 +283,11 @@ void add_distance(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("distance");
   const auto options = std::make_shared<DistanceVerbOptions>();
   options->command_files = &verb.files();
-  verb.add_option("files", options->files,
-                  "Two shape files (JSON); or a scene or robot file, alone or followed by files to "
-                  "measure against\nScene or robot: " +
-                      scene_argument())
+  verb.add_option(
+          "files", options->files,
+          "Two shape files (JSON); or a scene or robot file, optionally followed by other files "
+          "to measure against\nScene or robot: " +
+              scene_argument())
       .required()
       .reads_file();
   add_tolerance(verb, options->tolerance);
@@ -299,9 +300,9 @@ void add_distance(Parser& parser, ExitCode&) {
   verb.add_option("-o,--output", options->output, "CSV file to write instead of printing the table")
       .writes_file();
   verb.add_option("--at-most", options->at_most,
-                  "Above this distance (scene units), return only a lower bound (for two shapes)");
+                  "For two shapes: return only a lower bound above this distance (scene units)");
   verb.add_flag("--only-sign", options->only_sign,
-                "Only decide whether the shapes overlap (for two shapes)");
+                "For two shapes: only decide whether they overlap");
   add_import_options(verb, options->import, false);
   verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")
       .between(0, 1024)

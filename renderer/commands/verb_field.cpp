@@ -118,10 +118,10 @@ void add_field(Parser& parser, ExitCode&) {
   verb.add_option("--extent", options->extent,
                   "Width of the picture in scene units; default: wide enough for all objects")
       .between(0.0, 1e300);
-  verb.add_option(
-          "--probe", options->probe,
-          "JSON file of a shape\nDraw the signed distance of this shape, moved to each point "
-          "of the plane, instead of the point's")
+  verb.add_option("--probe", options->probe,
+                  "JSON file of a shape to use instead of points\n"
+                  "The shape is moved to each point of the plane, and the signed distance from the "
+                  "shape to the nearest object is drawn")
       .reads_file();
   verb.add_option("-r,--resolution", options->resolution, "Picture size in pixels")
       .takes("WxH")

@@ -34,8 +34,9 @@ void add_generate(Parser& parser, ExitCode&) {
   verb.add_option("-n,--count", options->count, "Number of shapes")
       .between(std::size_t{1}, most_instances)
       .show_default();
-  verb.add_option("-o,--output", options->out,
-                  "Scene file to write (.json); many poses are written to a .f32 file next to it")
+  verb.add_option(
+          "-o,--output", options->out,
+          "Scene file to write (.json); more than 1000 poses are written to a .f32 file next to it")
       .required()
       .writes_file();
   verb.add_option("--seed", options->seed, "Random seed (0 to 2^64 - 1)").takes("N").show_default();

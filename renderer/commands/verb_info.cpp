@@ -67,10 +67,10 @@ void add_info(Parser& parser, ExitCode&) {
   add_scene_option(verb, options->scene).required(false);
   add_other_files(verb, options->import);
   add_import_options(verb, options->import);
-  verb.add_flag("--shapes", options->shapes, "List all shapes and their parameters");
+  verb.add_flag("--shapes", options->shapes, "List all kinds of shapes and their parameters");
   verb.add_flag("--schema", options->schema, "Print the JSON Schema of scene files");
   verb.add_flag("--json", options->json, "Print JSON");
-  verb.add_flag("--markdown", options->markdown, "With --shapes: print a Markdown table");
+  verb.add_flag("--markdown", options->markdown, "Print a Markdown table (with --shapes)");
   verb.on_call([options] { info(*options); });
 }
 

@@ -39,7 +39,7 @@ void add_inspect(Parser& parser, ExitCode& exit_code) {
   verb.add_option("--beside", options->beside, "Second solver, shown for comparison")
       .one_of(solver_names())
       .show_default();
-  verb.add_option("--pairs", options->pairs, "Number of object pairs to show distances for")
+  verb.add_option("--pairs", options->pairs, "Number of object pairs whose distance the page shows")
       .between(std::size_t{0}, std::size_t{1000})
       .show_default();
   verb.add_option("--megabytes", options->megabytes,

@@ -28,7 +28,8 @@ void add_league(Parser& parser, ExitCode&) {
   const auto words = std::make_shared<LeagueWords>();
   verb.add_option("--cases", words->cases, "Files of cases (default: all of tests/cases)")
       .reads_file();
-  verb.add_option("--only", words->only, "Run only cases whose names contain NAME").takes("NAME");
+  verb.add_option("--only", words->only, "Run only cases whose names contain this text")
+      .takes("NAME");
   verb.add_option("--solvers", words->solvers,
                   "Solvers to run, comma-separated (default: all available)")
       .takes("NAMES");

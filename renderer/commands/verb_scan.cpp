@@ -189,7 +189,7 @@ void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
       .reads_file();
   verb.add_option(
           "--pose", options.pose,
-          "Position and rotation (quaternion) of the sensor; default: at the origin, unrotated")
+          "Position and rotation (quaternion) of the sensor; default: at the origin, not rotated")
       .group(heading)
       .takes("X,Y,Z[,QX,QY,QZ,QW]");
   verb.add_option("--on", options.mount, "Robot link or object that carries the sensor")
@@ -217,8 +217,7 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .takes("MIN,MAX");
   verb.add_option("--noise", options.noise,
                   "Standard deviations of the range (scene units), of the angle (rad), and of the "
-                  "range per "
-                  "unit of distance; default: 0")
+                  "range per unit of distance; default: 0")
       .group(heading)
       .takes("RANGE[,ANGLE[,PER_LENGTH]]");
   verb.add_option("--dropout", options.scan.dropout, "Probability that a ray returns nothing")
@@ -237,7 +236,8 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .between(1, 64)
       .show_default();
   verb.add_option("--echo", options.order,
-                  "Order of echoes:\nfirst: nearest first\nstrongest: greatest intensity first\n"
+                  "Order of echoes; of these, only the first --returns are returned:\n"
+                  "first: nearest first\nstrongest: greatest intensity first\n"
                   "last: furthest first")
       .group(heading)
       .one_of(echo_orders)
@@ -274,7 +274,7 @@ void add_scan(Parser& parser, ExitCode&) {
   std::string endings;
   for (const ScanFormat& format : scan_formats())
     endings += (endings.empty() ? "" : ", ") + std::string(format.ending);
-  verb.add_option("-o,--output", options->outputs, "Output (" + endings + "); repeatable")
+  verb.add_option("-o,--output", options->outputs, "File to write (" + endings + "); repeatable")
       .required()
       .one_value_each()
       .writes_file();

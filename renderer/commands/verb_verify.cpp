@@ -274,7 +274,7 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
                   "Named SRDF state that sets the joints missing from the plan")
       .takes("NAME");
   verb.add_option("--group", inputs.group,
-                  "SRDF group whose joints are the columns of an .npy file")
+                  "SRDF group whose joints are the columns of a motion in NPY")
       .takes("NAME");
   verb.add_option("--padding", inputs.cell.padding,
                   "Distance that links must keep from obstacles (m)")

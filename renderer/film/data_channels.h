@@ -34,15 +34,16 @@ inline constexpr std::array data_channels = {
                            "solver iterations, summed over all casts of the ray (integer)"},
     DataChannelDescription{"gjk.supports", "",
                            "support points, summed over all casts of the ray (integer)"},
-    DataChannelDescription{"gjk.gap", "",
-                           "width of the bounds of the hit's ray parameter t; 0 for a miss"},
+    DataChannelDescription{
+        "gjk.gap", "",
+        "width of the interval that contains the hit's ray parameter t; 0 for a miss"},
     DataChannelDescription{"albedo", "RGB", "colour of the surface's material; 0 for a miss"},
     DataChannelDescription{"emission", "RGB", "light emitted by the surface; 0 for a miss"},
     DataChannelDescription{"thickness", "", "length of the ray inside the object; 0 for a miss"},
     DataChannelDescription{
         "uv", "UV",
-        "texture coordinates of the mesh; without any, longitude and latitude around the object's "
-        "origin; 0 for a miss"},
+        "texture coordinates of the mesh; if there are none, longitude and latitude around the "
+        "object's origin; 0 for a miss"},
     DataChannelDescription{
         "motion", "XY",
         "motion of the hit point while the shutter is open, in pixels; 0 for a miss"},
@@ -53,10 +54,10 @@ inline constexpr std::array data_channels = {
     DataChannelDescription{"variance", "RGB",
                            "squared standard error of the pixel, estimated from its samples",
                            DataChannelDescription::By::samples},
-    DataChannelDescription{
-        "cryptomatte", "",
-        "Cryptomatte of all objects by name (CryptoObject00.R to 02.A, names in the header)",
-        DataChannelDescription::By::samples},
+    DataChannelDescription{"cryptomatte", "",
+                           "Cryptomatte of all objects by name (planes CryptoObject00.R to "
+                           "CryptoObject02.A; names in the header)",
+                           DataChannelDescription::By::samples},
     DataChannelDescription{
         "status", "",
         "0 miss, 1 hit, 2 ray starts inside a shape, 3 a cast did not converge (integer)"},

@@ -37,22 +37,25 @@ void RenderArguments::add_to(const Verb& verb) {
     names.emplace_back(kind.name);
   }
   verb.add_option("--integrator", integrator, kinds).one_of(names).show_default();
-  verb.add_option("--max-depth", max_depth,
-                  "Maximum bounces for --integrator path; 0: only emissive objects are visible")
+  verb.add_option(
+          "--max-depth", max_depth,
+          "Maximum bounces per path, with --integrator path; 0: only emissive objects are visible")
       .between(0, 1000)
       .show_default();
   verb.add_option("--bounces", bounces,
-                  "Diffuse bounces for --integrator ambient; 0: only ambient occlusion")
+                  "Diffuse bounces, with --integrator ambient; 0: only ambient occlusion")
       .between(0, 64)
       .show_default();
   verb.add_option(
           "--clamp", clamp,
-          "Maximum radiance that a path adds to a sample as indirect light (--integrator path); 0: "
-          "off\nFewer fireflies, but a slightly darker picture")
+          "Maximum radiance of each contribution of indirect light, with --integrator path; "
+          "0: unlimited\n"
+          "A limit gives fewer fireflies, but a slightly darker picture")
       .between(0.0, 1e30)
       .show_default();
-  verb.add_option("--noise", noise,
-                  "Adaptive sampling: stop sampling a pixel at this relative error; 0: off")
+  verb.add_option(
+          "--noise", noise,
+          "Adaptive sampling: stop sampling a pixel when its relative error is below this; 0: off")
       .between(0.0, 1.0)
       .show_default();
   verb.add_flag("--denoise", denoise, "Denoise (best at few samples per pixel)");
@@ -80,8 +83,8 @@ void RenderArguments::add_to(const Verb& verb) {
     channels += "\n" + std::string(channel.name) + ": " + std::string(channel.doc);
   verb.add_option("--aov", aov,
                   "Extra EXR channels (AOVs), comma-separated, or all\n"
-                  "Most come from one unfiltered ray per pixel; direct, indirect, variance and "
-                  "cryptomatte come from all samples\nChannels:" +
+                  "The channels direct, indirect, variance and cryptomatte come from all samples; "
+                  "the others come from one unfiltered ray per pixel\nChannels:" +
                       channels)
       .takes("NAMES");
   verb.add_option("--tile", tile, "Render only tile I (from 1) of N; minkray merge joins the tiles")
@@ -107,12 +110,13 @@ void RenderArguments::add_to(const Verb& verb) {
   verb.add_option("--tev", tev,
                   "Show the picture in the viewer tev while rendering (default port 14158)")
       .takes("HOST:PORT");
-  verb.add_option("--frames", frames,
-                  "Frames to render, such as 0..47; #### in -o becomes the frame number\n"
-                  "--resume skips the frames listed in NAME-####.png.frames")
+  verb.add_option(
+          "--frames", frames,
+          "Frames to render, such as 0..47; #### in the name of -o becomes the frame number\n"
+          "With --resume, frames that are listed in NAME-####.png.frames are skipped")
       .takes("A..B");
   verb.add_option("--rate", rate, "Frames per second (fps)").between(1e-6, 1e6).show_default();
-  verb.add_option("--contact-sheet", contact_sheet, "Picture to write: thumbnails of all --frames")
+  verb.add_option("--contact-sheet", contact_sheet, "Picture to write: thumbnails of all frames")
       .writes_file();
   verb.add_flag("--stats", stats,
                 "Print statistics: rays, speed, work and memory; --stats=json prints JSON")

@@ -17,10 +17,11 @@ struct IntegratorDescription {
   std::string_view name, doc;
 };
 
-/// The list of all there are.
+/// All rendering methods.
 inline constexpr std::array integrators = {
-    IntegratorDescription{IntegratorKind::automatic, "auto",
-                          "path if the scene has lights or materials that need it, else ambient"},
+    IntegratorDescription{
+        IntegratorKind::automatic, "auto",
+        "path if the scene has lights or materials that need path tracing, else ambient"},
     IntegratorDescription{IntegratorKind::path, "path", "path tracing of all light; unbiased"},
     IntegratorDescription{IntegratorKind::direct, "direct",
                           "direct light from lights and emissive objects"},
