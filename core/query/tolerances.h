@@ -14,7 +14,8 @@ namespace minkray::tolerance {
 template <class T>
 inline constexpr T epsilon = std::numeric_limits<T>::epsilon();
 
-/// The GJK ray cast ends when |v|^2 <= gjk_squared * max|x - p|^2. The paper, which calls this
+/// The GJK ray cast ends when |v|^2 <= gjk_squared * max|x - p|^2, in the letters of
+/// core/gjk/gjk_ray_cast.h. The paper, which calls this
 /// tolerance eps_tol, proposes ten times the machine epsilon, since with Johnson's determinants the
 /// error of |v|^2 is proportional to max|x - p|^2. Our closest point v has an error of only a few
 /// epsilon of |x - p|, so the tolerance is the square of that error.
@@ -58,7 +59,7 @@ template <class T>
 inline constexpr T plane_rounding = T(8) * epsilon<T>;
 
 /// The slope of a supporting plane is its normal's component against the ray. A plane with at most
-/// this slope is nearly parallel to the ray, so rounding decides where along the ray it is crossed.
+/// this slope is nearly parallel to the ray, so rounding decides where the ray crosses the plane.
 /// For rays in the plane of a face, the slope is a few epsilon.
 template <class T>
 inline constexpr T least_slope = T(0x1p-36);
@@ -88,16 +89,17 @@ template <class T>
 inline constexpr T support_rounding = T(2) * epsilon<T>;
 
 /// Bounds the displacement of a point by the transpose of a matrix that keeps lengths
-/// (core/math/affine.h), in units of its distance from the centre.
+/// (core/math/affine.h), in units of the point's distance from the centre.
 template <class T>
 inline constexpr T transposed_rounding = T(4) * epsilon<T>;
 
 /// Bounds the displacement of a shape by the rounding of a rotation's entries, in units of the
-/// distance of its centre from the origin of its frame.
+/// distance from the origin of the shape's frame to the shape's centre.
 template <class T>
 inline constexpr T turned_rounding = T(8) * epsilon<T>;
 
-/// Rounding of a near ray's parameter, in units of its parts.
+/// Rounding of a ray's parameter near the shape, in units of the two parts that the parameter is
+/// the sum of (RayNearBall).
 template <class T>
 inline constexpr T offset_rounding = T(4) * epsilon<T>;
 
@@ -181,9 +183,9 @@ inline constexpr double farthest_origin = 0x1p62;
 template <class T>
 inline constexpr T box_padding = T(8) * epsilon<T>;
 
-/// Error of a position near the shape that closed forms allow for, in units of the form's radius: E
-/// / R of docs/forms.md ("Casts with an error bound"). Includes the two steps that move the ray
-/// near the shape and some twenty later operations, each with a rounding of 2^-53.
+/// Error E of a position near the shape that closed forms allow for, in units of the form's radius
+/// R (docs/forms.md, "Casts with an error bound"). Includes the two steps that move the ray near
+/// the shape and some twenty later operations, each with a rounding of 2^-53.
 inline constexpr double form_rounding = 0x1p-49;
 
 /// (E / R)^2 / 16. A component of the direction counts as zero if its square is less than this
@@ -245,7 +247,8 @@ inline constexpr double rounded_line_error = 0x1p-40;
 /// products; E is at least 12 * 2^-53 of the radius.
 inline constexpr double polytope_beside = 4;
 
-/// The GJK distance algorithm ends when |v|^2 - v.w <= distance_gap * |v| (|v| + R). The product
+/// The GJK distance algorithm ends when |v|^2 - v.w <= distance_gap * |v| (|v| + R), in the letters
+/// of core/gjk/gjk_distance.h. The product
 /// v.w is a difference of numbers of size |v| (|v| + R), each rounded to an epsilon of that size.
 /// The error of the distance is then a few epsilon of the distance and of the objects' size.
 template <class T>
@@ -259,7 +262,8 @@ inline constexpr int distance_max_iterations = 400;
 inline constexpr int first_solution_max_supports = 10000;
 
 /// Distances by which shapes are moved apart to find the point of contact, relative to the sum of
-/// their sizes. Hits are precise to a few epsilon, hits of stalled casts to gjk_stalled.
+/// their sizes. Hits are precise to a few epsilon, and hits of stalled casts are precise to
+/// gjk_stalled.
 template <class T>
 inline constexpr T contact_back_off[] = {T(8) * epsilon<T>, T(64) * epsilon<T>,
                                          T(512) * epsilon<T>};
