@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Table of the stages of a cast. For each solver and kind of shape, a line specifies the order
-// of the stages and the hits that must be proven. A stage runs only if all stages before it failed
-// to converge, or gave a result that could not be proven.
+// Table of the stages of a cast. For each solver and kind of shape, a line specifies the order of
+// the stages and the hits that must be proven. A stage runs only if all stages before it failed to
+// converge, or gave a result that could not be proven.
 #pragma once
 
 #include <array>

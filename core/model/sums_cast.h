@@ -192,10 +192,9 @@ class SumsCast {
 
   /// For one feature. If the plane of direction m is higher than the lowest one so far, takes only
   /// a part of the step from the lowest plane's direction: to the minimum of the parabola through
-  /// the known values.
-  /// If a step leads past the shape, takes the step of an ellipsoid that contains the sum and
-  /// touches it in this direction, A = sum h_k sum A_k/h_k; this step cannot be too long. Returns
-  /// the lanes whose plane is higher.
+  /// the known values. If a step leads past the shape, takes the step of an ellipsoid that contains
+  /// the sum and touches it in this direction, A = sum h_k sum A_k/h_k; this step cannot be too
+  /// long. Returns the lanes whose plane is higher.
   Mask<W> step_back(Lowest& lowest, Vec3<W>& m, const Look& look, const Mask<W>& lanes) const {
     using std::max;
     using std::min;

@@ -97,9 +97,8 @@ class SuperellipsoidModel {
   };
 
   /// Crossing of two tangents, one on either side of the least gauge. The crossing bounds the gauge
-  /// from below.
-  /// A weighted mean of the tangents is constant along the ray; its gradient is the normal of a
-  /// plane along the ray.
+  /// from below. A weighted mean of the tangents is constant along the ray; its gradient is the
+  /// normal of a plane along the ray.
   static Crossing crossing(const Tangent& left, const Tangent& right, const Mask<W>& both) {
     const W fall = -left.slope, sum = select(both, W(fall + right.slope), W(1));
     const W difference = fall * right.slope * (right.lambda - left.lambda);

@@ -18,8 +18,8 @@ namespace minkray {
 /// closed surface that winds around the origin once, and so around all points nearer to the origin
 /// than d. These points are in the hull of the vertices, which are points of C. Growing preserves
 /// this: a point w may replace a face if some plane that does not contain the origin has neither w
-/// nor the face's points on the origin's side. So for each face, any unit vector n gives a
-/// valid d: the least n.y of the face's three vertices y.
+/// nor the face's points on the origin's side. So for each face, any unit vector n gives a valid d:
+/// the least n.y of the face's three vertices y.
 template <CoreKind A, CoreKind B>
 class ExpandingPolytope {
  public:

@@ -2,8 +2,8 @@
 // Contact manifold: up to four contact points of two shapes. With only one point, a resting box
 // would tip over. Support points in directions tilted slightly from the normal are the corners of
 // each shape's part that faces the other shape. The two polygons, projected along the normal, are
-// clipped (I. Sutherland, G. Hodgman, "Reentrant Polygon Clipping", 1974). At most four corners
-// are kept: those that span the largest area.
+// clipped (I. Sutherland, G. Hodgman, "Reentrant Polygon Clipping", 1974). At most four corners are
+// kept: those that span the largest area.
 #pragma once
 
 #include <array>

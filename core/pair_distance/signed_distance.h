@@ -87,8 +87,8 @@ struct SignedDistanceOptions {
 
 /// Returns the signed distance of A and B. The poses must be rigid. The bounds include all rounding
 /// errors: 16 machine epsilons times the sum of the shapes' sizes and the distance of their middles
-/// (a middle is the centre of a shape's core). The bounds hold however far the shapes are from
-/// the world's origin. If a middle is not the origin of the shape's own frame, the rounding of the
+/// (a middle is the centre of a shape's core). The bounds hold however far the shapes are from the
+/// world's origin. If a middle is not the origin of the shape's own frame, the rounding of the
 /// middle's position is added.
 SignedDistance signed_distance(const ContactShape& a, const Affine<double>& pose_a,
                                const ContactShape& b, const Affine<double>& pose_b,

@@ -29,8 +29,8 @@ class SlidingFeatures {
     append(feature_a, feature_b, weight);
   }
 
-  /// Searches from the direction d. `damping` (relative to the size) damps the first step; pairs
-  /// of a face and a rim need this. Returns true if a result was found.
+  /// Searches from the direction d. `damping` (relative to the size) damps the first step; pairs of
+  /// a face and a rim need this. Returns true if a result was found.
   bool run(const Vec3<double>& d, double damping);
 
   /// For overlapping cores: finds a direction near d where the gap has a local maximum, to about

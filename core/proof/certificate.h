@@ -54,8 +54,8 @@ struct Certificate {
   int supports = 0;  ///< support calls of the search
 };
 
-/// Returns the best proof of the claim that the search finds; the checker decides whether the
-/// proof holds. The search begins with the claim's normal. There is no proof for Status::exhausted.
+/// Returns the best proof of the claim that the search finds; the checker decides whether the proof
+/// holds. The search begins with the claim's normal. There is no proof for Status::exhausted.
 Certificate certify(const SupportFunction& support, const Ray<double>& ray, const Claim& claim);
 
 }  // namespace minkray

@@ -19,8 +19,8 @@ struct Line {
   /// Bounds the error, across the line and along it, of the line's points with |t| |d| up to the
   /// form's size. Includes the rounding of s and of a form's operations.
   W E;
-  /// If the square of a component of d is less than this, the component counts as zero: over
-  /// the length of the form, such a component moves the line by less than E / 4.
+  /// If the square of a component of d is less than this, the component counts as zero: over the
+  /// length of the form, such a component moves the line by less than E / 4.
   W parallel;
 
   Line reversed() const { return {s, -d, dd, inv, E, parallel}; }

@@ -15,10 +15,10 @@ template <class T>
 inline constexpr T epsilon = std::numeric_limits<T>::epsilon();
 
 /// The GJK ray cast ends when |v|^2 <= gjk_squared * max|x - p|^2, in the letters of
-/// core/gjk/gjk_ray_cast.h. The paper, which calls this
-/// tolerance eps_tol, proposes ten times the machine epsilon, since with Johnson's determinants the
-/// error of |v|^2 is proportional to max|x - p|^2. Our closest point v has an error of only a few
-/// epsilon of |x - p|, so the tolerance is the square of that error.
+/// core/gjk/gjk_ray_cast.h. The paper, which calls this tolerance eps_tol, proposes ten times the
+/// machine epsilon, since with Johnson's determinants the error of |v|^2 is proportional to max|x -
+/// p|^2. Our closest point v has an error of only a few epsilon of |x - p|, so the tolerance is the
+/// square of that error.
 template <class T>
 inline constexpr T gjk_squared = T(16) * epsilon<T>* T(16) * epsilon<T>;
 
@@ -248,9 +248,9 @@ inline constexpr double rounded_line_error = 0x1p-40;
 inline constexpr double polytope_beside = 4;
 
 /// The GJK distance algorithm ends when |v|^2 - v.w <= distance_gap * |v| (|v| + R), in the letters
-/// of core/gjk/gjk_distance.h. The product
-/// v.w is a difference of numbers of size |v| (|v| + R), each rounded to an epsilon of that size.
-/// The error of the distance is then a few epsilon of the distance and of the objects' size.
+/// of core/gjk/gjk_distance.h. The product v.w is a difference of numbers of size |v| (|v| + R),
+/// each rounded to an epsilon of that size. The error of the distance is then a few epsilon of the
+/// distance and of the objects' size.
 template <class T>
 inline constexpr T distance_gap = T(4) * epsilon<T>;
 

@@ -28,8 +28,8 @@ inline constexpr double most_brightness = 1e15;
 /// One parameter: a member of shape S. The member's type determines the JSON form: T is a number;
 /// std::array<T, 2> and Vec3<T> are lists of two and three numbers; std::array<Vec3<T>, N> is a
 /// list of N points; Nested is a shape; ShapeList is a list of shapes; PointCloud is points or a
-/// mesh file; AffineMap is the keys `translate`, `rotate`, `scale` or `matrix`. An
-/// optional parameter keeps its initial value if left out.
+/// mesh file; AffineMap is the keys `translate`, `rotate`, `scale` or `matrix`. An optional
+/// parameter keeps its initial value if left out.
 template <class S, class M>
 struct Field {
   using Member = M;

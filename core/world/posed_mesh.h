@@ -45,9 +45,9 @@ MeshCast cast_ray(const PosedMesh& posed, const Ray<double>& ray, double most, b
 /// Finds where a ray from outside leaves a closed mesh: at the second intersection, or at the first
 /// one if there is only one. Sets only the status and t.
 CastResult<double> cast_exit(const PosedMesh& posed, const Ray<double>& ray);
-/// Finds where the ray leaves the mesh for the last time: the last hit of any triangle. The
-/// status is `inside` if the ray's end (at ray.t_max) is within a closed mesh. The normal points
-/// along the ray.
+/// Finds where the ray leaves the mesh for the last time: the last hit of any triangle. The status
+/// is `inside` if the ray's end (at ray.t_max) is within a closed mesh. The normal points along the
+/// ray.
 MeshCast cast_last_exit(const PosedMesh& posed, const Ray<double>& ray, double loss);
 
 /// A triangle that the ray passes through. The normal is on the triangle's front, given by the
