@@ -71,8 +71,8 @@ Bvh build_bvh(FirstTouchVector<Bounds<float>>&& boxes, BvhBuild build = BvhBuild
 void refit(Bvh& bvh, std::span<const Bounds<float>> boxes);
 
 /// Expected numbers of nodes, and of boxes in leaves, that a random line visits if it meets the
-/// root's box: the sum of their surface areas, divided by that of the root. The surface area
-/// heuristic minimises both numbers.
+/// root's box: the sum of the surface areas of their boxes, divided by the surface area of the
+/// root's box. The surface area heuristic minimises both numbers.
 struct VisitEstimate {
   double nodes = 0, leaves = 0;
 };

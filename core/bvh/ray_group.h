@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Traverses a hierarchy with a group: up to 32 rays from one point whose directions have the same
-// signs, such as a camera's. Nodes are tested by bounds of all rays, and each child that is visited
-// by the rays' own slabs, side by side. Everything here has internal linkage.
+// signs, such as a camera's. Nodes are tested with bounds of all rays; each child to be visited is
+// then tested with the slabs of the single rays, side by side. Everything here has internal
+// linkage.
 #pragma once
 
 #include "core/bvh/group_walk.h"
@@ -68,7 +69,7 @@ class RayGroup {
     return is_alike;
   }
 
-  /// Lowers the limit of a ray; false if it is as low already.
+  /// Lowers the limit of a ray; false if the limit is already as low.
   bool lower(std::size_t ray, float t_max) {
     if (!(t_max < t_max_[ray])) return false;
     t_max_[ray] = t_max;
@@ -76,7 +77,8 @@ class RayGroup {
   }
 
   /// Calls on_box(box, rays) for the boxes that rays meet, near boxes first; `rays` has a bit for
-  /// each of them. on_box returns true if it has lowered a limit. Returns the number of nodes.
+  /// each of these rays. on_box returns true if it has lowered a limit. Returns the number of
+  /// nodes.
   template <class OnBox>
   [[gnu::always_inline]] std::uint64_t walk(const BvhNode* nodes, OnBox&& on_box) {
     struct Waiting {
@@ -96,8 +98,8 @@ class RayGroup {
     for (;;) {
       ++visited;
       const BvhNode& node = nodes[node_number];
-      // Inverses have one sign: products with the least and the greatest of them bound the others,
-      // since rounding keeps their order.
+      // Inverses have one sign: products with the least and the greatest bound the products with
+      // all others, since rounding keeps their order.
       __m256 enter = _mm256_setzero_ps(), leave = _mm256_set1_ps(t_max);
       for (std::size_t k = 0; k < 3; ++k) {
         const __m256 low = _mm256_set1_ps(inverse_low[k]), high = _mm256_set1_ps(inverse_high[k]);
@@ -142,7 +144,8 @@ class RayGroup {
   }
 
  private:
-  /// The rays that meet a child's box; if not all matter, no more than one row of them.
+  /// Returns the rays that meet a child's box. Unless `all` is set, stops after the first row of
+  /// rays in which any ray meets the box.
   [[gnu::always_inline]] std::uint32_t rays_in(const BvhNode& node, std::uint32_t child,
                                                bool all) const {
     std::uint32_t in = 0;

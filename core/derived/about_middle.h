@@ -18,7 +18,7 @@ struct AboutMiddle {
 
 /// Rebuilds the image of `shape` under `map`. Nested maps become one map per innermost shape, and
 /// points are mapped one by one. A shape far from the origin of its own frame is moved to that
-/// origin. This costs digits only for custom shapes, which increases `loss`.
+/// origin. This costs digits, and increases `loss`, only for custom shapes.
 AboutMiddle about_middle(const Shape& shape, const ComposedMap& map);
 
 /// Bounds the error of the image of a shape around the origin, caused by rounding of the rotations

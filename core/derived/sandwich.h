@@ -30,7 +30,7 @@ struct SandwichOptions {
 };
 
 /// The meshes are in `frame`, where the shape spans about [-1, 1] along each of the first `rank`
-/// axes. The frame is affine, so the parameter t of a ray is the same in it.
+/// axes. The frame is affine, so the parameter t of a ray is the same in the frame and outside.
 ///
 /// Rank 3: both meshes are closed surfaces. Rank 2 (disks, triangles, flat hulls): both are
 /// polygons in the plane of the shape, so a ray has the same t in both; in that plane, `outer`

@@ -159,7 +159,7 @@ Mat3<T> accurate_inverse(const TwoFoldMat3<T>& m) {
     if (largest < T(1)) continue;
     if (is_pivoted) break;
     // Pivoted elimination has an error proportional to the condition number. The error of cofactors
-    // is proportional to its square.
+    // is proportional to the square of the condition number.
     is_pivoted = true;
     inverse = TwoFoldMat3<T>(Mat3<T>(m.high.fullPivLu().inverse()));
   }

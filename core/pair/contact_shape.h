@@ -31,7 +31,7 @@ class ContactShape {
     return {core_and_radius_.middle, core_and_radius_.middle_low};
   }
   /// True if the core's frame is rotated (is_turned), or the middle is not the body's origin
-  /// (is_moved). Most shapes are neither, which halves the cost of a pair's relative pose.
+  /// (is_moved). For most shapes both are false, which halves the cost of a pair's relative pose.
   bool is_turned() const { return is_turned_; }
   bool is_moved() const { return is_moved_; }
   /// Distance of the middle from the body's origin.

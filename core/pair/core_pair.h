@@ -47,7 +47,7 @@ inline DifferencePoint nearest_along(const CorePair& pair, const Vec3<double>& d
   return {pair.x + pair.turn * b.point - a.point, a.point, a.feature, b.feature};
 }
 
-/// Same for cores whose kinds are not known when compiling; each call looks up the kinds.
+/// Same for cores whose kinds are not known when compiling: each call looks up the kinds.
 inline DifferencePoint nearest_along(const CorePair& pair, const Vec3<double>& d) {
   return nearest_along<CoreKind::other, CoreKind::other>(pair, d);
 }
@@ -79,10 +79,10 @@ struct CoreDistance {
   }
 };
 
-/// Tests whether other directions also have the least depth: moves B deeper along the axis by this
-/// distance. The depth along another direction grows by the distance times the cosine of its angle
-/// to the axis. If the least depth grows by at least 1 - `leaning` of the distance, its direction
-/// is unique.
+/// Returns the distance by which B is moved deeper along the axis, to test whether other directions
+/// also have the least depth. The depth along another direction grows by this distance times the
+/// cosine of the angle between that direction and the axis. If the least depth grows by at least 1
+/// - `leaning` of the distance, the direction of the least depth is unique.
 inline double deeper_by(const CorePair& pair) {
   constexpr double step = 1e-4;  // relative to the sizes
   return step * (pair.size() + pair.radii());

@@ -2,8 +2,8 @@
 // Support mapping of a core, for solvers of pairs. Each support point comes with its feature: the
 // part of the surface (a vertex, a rim, an ellipsoid) that it lies on. Also gives the furthest
 // point of a given feature, and that point's derivative with respect to the direction. The core's
-// kind is a template parameter, so that solvers are compiled per kind; `CoreKind::other` looks it
-// up per call.
+// kind is a template parameter, so that solvers are compiled per kind; `CoreKind::other` looks up
+// the kind per call.
 #pragma once
 
 #include "core/pair/hull_scan.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests if a point of a core's surface lies on an edge or at a corner, which have more than one
-// normal.
+// Tests whether a point of a core's surface lies on an edge or at a corner, which have more than
+// one normal.
 #pragma once
 
 #include "core/pair/core_support.h"

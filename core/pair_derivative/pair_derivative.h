@@ -22,7 +22,7 @@ struct TwistDerivative {
 
 struct PairDerivative {
   TwistDerivative a, b;
-  /// True if there may be several derivatives; `a` and `b` are then one of them.
+  /// True if there may be several derivatives; `a` and `b` then have one of them.
   bool is_ridge = false;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // First contact of a core that moves without turning and a core at rest, if the distance has a
-// closed form. The signed distance is a convex function of the position, and so of the time.
+// closed form. The signed distance is a convex function of the position, and thus of the time.
 // Newton's method from the left therefore never overshoots. A separating plane proves each step.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace minkray {
 bool has_swept_closed(const CorePair& pair);
 
 /// Returns the time of impact. For the parameters see SweptPortal (swept_portal.h). Returns `open`
-/// if it cannot decide.
+/// if the search cannot decide.
 SweptTime swept_closed(const CorePair& pair, const Vec3<double>& velocity, double t_max,
                        double near);
 

@@ -117,7 +117,7 @@ struct SweptQuery {
     return false;
   }
 
-  /// Tests if the origin is inside the triangle at the time at which the origin is in the
+  /// Tests whether the origin is inside the triangle at the time at which the origin is in the
   /// triangle's plane. If so, takes this time as an upper bound and returns true.
   bool pierce(const SweptPoint& r, const SweptPoint& s, const SweptPoint& t) {
     const double at_r = cross(s, t), at_s = cross(t, r), at_t = cross(r, s),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tests if a mesh bends near a point. Triangles in one plane share one normal and do not count.
+// Tests whether a mesh bends near a point. Triangles in one plane share one normal and do not
+// count.
 #pragma once
 
 #include "core/mesh/triangle_mesh.h"

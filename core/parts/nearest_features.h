@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Nearest points of two triangles that do not cross. These are on an edge of each triangle, or one
-// is a corner and the other on a face (C. Ericson, "Real-Time Collision Detection", 2004, 5.1.9 and
+// Nearest points of two triangles that do not cross. Either both points are on edges, or one is a
+// corner and the other is on a face (C. Ericson, "Real-Time Collision Detection", 2004, 5.1.9 and
 // 5.1.10). Processes three edges or corners at once, in lanes.
 #pragma once
 

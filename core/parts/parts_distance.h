@@ -13,7 +13,7 @@ namespace minkray {
 /// is overlapping, and value and both bounds are 0, since no depth is computed. Only closed meshes
 /// can contain bodies. If surfaces cross, the points lie on two crossing parts. If one body is
 /// inside the other, both points are the same point of the inner body. The normal is that of a
-/// crossed face. The poses must be rigid. Tests the pair of parts `first` first. If the bodies have
+/// crossed face. The poses must be rigid. Begins with the pair of parts `first`. If the bodies have
 /// moved little, the parts of the last query save much of the search; any other parts only cost
 /// time.
 SignedDistance signed_distance(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
@@ -22,7 +22,7 @@ SignedDistance signed_distance(const PartsBody& a, const Affine<double>& pose_a,
                                PartPair first = {});
 
 /// Tests one point of each body against the other body's mesh. Returns a point that is inside;
-/// there always is one if a mesh encloses the other body without crossing it.
+/// there always is such a point if a mesh encloses the other body without crossing it.
 std::optional<Vec3<double>> point_within(const PartsBody& a, const Affine<double>& pose_a,
                                          const PartsBody& b, const Affine<double>& pose_b);
 
