@@ -48,7 +48,7 @@ void add_inspect(Parser& parser, ExitCode& exit_code) {
   verb.add_flag("--serve", options->serve,
                 "Serve the page at 127.0.0.1 until Ctrl-C; a served page can replay every pixel")
       .excludes(output);
-  verb.add_option("--port", options->port, "Port of --serve; 0: any free port")
+  verb.add_option("--port", options->port, "Port for --serve; 0: any free port")
       .between(0, 65535)
       .show_default();
   verb.add_flag("-q,--quiet", image.quiet, "Print neither progress nor a report");

@@ -41,7 +41,7 @@ void add_league(Parser& parser, ExitCode&) {
   verb.add_option("--random", words->random, "Also cast N random rays per kind of ray and shape")
       .between(0, 100000)
       .show_default();
-  verb.add_option("--seed", words->seed, "Random seed of --random").show_default();
+  verb.add_option("--seed", words->seed, "Random seed for --random").show_default();
   verb.add_option("--limit", words->limit, "Time limit per query in seconds")
       .between(0.01, 3600.0)
       .show_default();

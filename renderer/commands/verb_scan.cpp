@@ -236,7 +236,7 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .between(1, 64)
       .show_default();
   verb.add_option("--echo", options.order,
-                  "Order of echoes; of these, only the first --returns are returned:\n"
+                  "Order of echoes; those beyond the maximum (--returns) are dropped:\n"
                   "first: nearest first\nstrongest: greatest intensity first\n"
                   "last: furthest first")
       .group(heading)

@@ -112,7 +112,7 @@ void RenderArguments::add_to(const Verb& verb) {
       .takes("HOST:PORT");
   verb.add_option(
           "--frames", frames,
-          "Frames to render, such as 0..47; #### in the name of -o becomes the frame number\n"
+          "Frames to render, such as 0..47; #### in the output's name becomes the frame number\n"
           "With --resume, frames that are listed in NAME-####.png.frames are skipped")
       .takes("A..B");
   verb.add_option("--rate", rate, "Frames per second (fps)").between(1e-6, 1e6).show_default();
