@@ -54,10 +54,14 @@ struct Primitive {
 
   std::uint32_t index() const { return std::bit_cast<std::uint32_t>(box.lower.lane(3)); }
 
-  /// Twice the centre; 0, not NaN, for unbounded boxes.
+  /// Twice the centre; 0, not NaN, for unbounded boxes. The fourth lane is 0, since products with
+  /// the index, which is a subnormal number, would be slow.
   Float4 middle() const {
+    constexpr float most = std::numeric_limits<float>::max();
+    Float4 limits(most);
+    limits.set_lane(3, -1);
     const Float4 sum = box.lower + box.upper;
-    return select(abs(sum) <= Float4(std::numeric_limits<float>::max()), sum, Float4(0.0f));
+    return select(abs(sum) <= limits, sum, Float4(0.0f));
   }
 };
 static_assert(sizeof(Primitive) == 32);
