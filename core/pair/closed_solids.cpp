@@ -8,23 +8,26 @@
 namespace minkray {
 namespace {
 
-/// Returns the signed distance of a box and a point p. c is the vector to p from the box's nearest
-/// point or, if p is inside, from the nearest face.
-CoreDistance point_and_box(const Vec3<double>& half, const Vec3<double>& p) {
+/// Returns the signed distance of a box and a point p. c leads from the box's nearest point to p;
+/// for a p inside, from the nearest face.
+CoreDistance point_and_box(const Vec3<double>& half, const Vec3<double>& p, double deeper) {
   const Vec3<double> nearest = p.cwiseMax(-half).cwiseMin(half);
   if (nearest != p) return closed_between(nearest, p - nearest, Vec3<double>::UnitX());
   int face = 0;
   const Vec3<double> inside = half - p.cwiseAbs();
-  inside.minCoeff(&face);
+  const double depth = inside.minCoeff(&face);
   const Vec3<double> axis = Vec3<double>::Unit(face) * (p[face] < 0 ? -1 : 1);
   Vec3<double> on_face = p;
   on_face[face] = half[face] * (p[face] < 0 ? -1 : 1);
-  return closed_answer(-inside[face], axis, on_face, p - on_face);
+  CoreDistance found = closed_answer(-depth, axis, on_face, p - on_face);
+  const double others = std::min(inside[(face + 1) % 3], inside[(face + 2) % 3]);
+  found.has_one_direction = depth + 2 * deeper < others && deeper < std::abs(p[face]);
+  return found;
 }
 
 /// Returns the signed distance of a cylinder or disk and a point p, from p's distances beyond the
 /// side and beyond the nearer end (negative inside).
-CoreDistance point_and_cylinder(double radius, double half, const Vec3<double>& p) {
+CoreDistance point_and_cylinder(double radius, double half, const Vec3<double>& p, double deeper) {
   const double rho = length_of(p.x(), p.y()), side = p.z() < 0 ? -1 : 1;
   const double beyond_side = rho - radius, beyond_end = side * p.z() - half;
   const double outward_x = rho > 0 ? p.x() / rho : 1, outward_y = rho > 0 ? p.y() / rho : 0;
@@ -40,7 +43,10 @@ CoreDistance point_and_cylinder(double radius, double half, const Vec3<double>& 
       is_by_end ? Vec3<double>(0, 0, side) : Vec3<double>(outward_x, outward_y, 0);
   const double gap = is_by_end ? beyond_end : beyond_side;
   const Vec3<double> c = gap * axis;
-  return closed_answer(gap, axis, p - c, c);
+  CoreDistance found = closed_answer(gap, axis, p - c, c);
+  found.has_one_direction = gap < 0 && std::abs(beyond_end - beyond_side) > 2 * deeper &&
+                            (is_by_end ? std::abs(p.z()) : rho) > deeper;
+  return found;
 }
 
 /// Returns the direction of d, limited to the angle between the unit vectors m and n. If d is the
@@ -57,7 +63,7 @@ std::array<double, 2> between_directions(const double* m, const double* n, doubl
 /// Returns the signed distance of the hull of two disks around z and a point p. Works in the half
 /// plane that contains p and is bounded by the axis, in which the hull has three edges: two ends
 /// and the side between the rims.
-CoreDistance point_and_disks(const Vec3<double>& size, const Vec3<double>& p) {
+CoreDistance point_and_disks(const Vec3<double>& size, const Vec3<double>& p, double deeper) {
   const double half = size.z(), below = size.x(), above = size.y();
   const double rho = length_of(p.x(), p.y()), z = p.z();
   const auto in_space = [&](double across, double along) -> Vec3<double> {
@@ -84,7 +90,11 @@ CoreDistance point_and_disks(const Vec3<double>& size, const Vec3<double>& p) {
   if (is_by_face) {
     const Vec3<double> axis = in_space(normal[face][0], normal[face][1]);
     const Vec3<double> c = gap[face] * axis;
-    return closed_answer(gap[face], axis, p - c, c);
+    CoreDistance found = closed_answer(gap[face], axis, p - c, c);
+    const double others = std::max(gap[(face + 1) % 3], gap[(face + 2) % 3]);
+    found.has_one_direction =
+        gap[face] < 0 && others + 2 * deeper < gap[face] && (face != 1 || deeper < rho);
+    return found;
   }
   // Chooses the nearer rim without comparing distances, which are rounded to equal numbers if p is
   // far away.
@@ -99,13 +109,13 @@ CoreDistance point_and_disks(const Vec3<double>& size, const Vec3<double>& p) {
 
 }  // namespace
 
-CoreDistance between_solid_and_point(const ShapeCore& solid, const Vec3<double>& p) {
+CoreDistance between_solid_and_point(const ShapeCore& solid, const Vec3<double>& p, double deeper) {
   const Vec3<double>& size = solid.size;
-  if (solid.kind == CoreKind::box) return point_and_box(size, p);
+  if (solid.kind == CoreKind::box) return point_and_box(size, p, deeper);
   // Two disks without a height between them are one disk, the larger of the two.
   if (size.x() == size.y() || !(size.z() > 0))
-    return point_and_cylinder(std::max(size.x(), size.y()), size.z(), p);
-  return point_and_disks(size, p);
+    return point_and_cylinder(std::max(size.x(), size.y()), size.z(), p, deeper);
+  return point_and_disks(size, p, deeper);
 }
 
 }  // namespace minkray

@@ -79,13 +79,16 @@ struct CoreDistance {
   }
 };
 
-/// Returns the distance by which B is moved deeper along the axis, to test whether other directions
-/// also have the least depth. The depth along another direction grows by this distance times the
-/// cosine of the angle between that direction and the axis. If the least depth grows by at least 1
-/// - `leaning` of the distance, the direction of the least depth is unique.
+/// Distance of a test for other directions of least depth: B is moved deeper along the axis by this
+/// distance. The depth along another direction grows by the distance times the cosine of its angle
+/// to the axis. If the least depth grows by at least 1 - `leaning` of the distance, its direction
+/// is unique.
+inline double deeper_by(double sizes) {
+  constexpr double step = 1e-4;
+  return step * sizes;
+}
 inline double deeper_by(const CorePair& pair) {
-  constexpr double step = 1e-4;  // relative to the sizes
-  return step * (pair.size() + pair.radii());
+  return deeper_by(pair.size() + pair.radii());
 }
 /// Least value of 1 - cos(angle) between directions that count as different.
 inline constexpr double leaning = 1e-4;

@@ -2,7 +2,10 @@
 #include "core/pair/flat_part.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+
+#include "core/math/length.h"
 
 namespace minkray {
 namespace {
@@ -28,7 +31,7 @@ FlatPart of_disks(const ShapeCore& core, const Vec3<double>& d, double tilt) {
   }
   // Direction of the side: the line from one rim to the other that faces d.
   const double rise = 2 * core.size.z(), widening = core.size.y() - core.size.x();
-  const double length = widening == 0 ? rise : std::hypot(rise, widening);
+  const double length = length_of(rise, widening);
   if (!(length > 0) || std::abs(rise * d.z() + widening * across) > tilt * length) return {};
   const double k = widening / (across * length);
   return {1, {k * d.x(), k * d.y(), rise / length}, length};
@@ -37,28 +40,26 @@ FlatPart of_disks(const ShapeCore& core, const Vec3<double>& d, double tilt) {
 FlatPart of_hull(const ShapeCore& core, const Vec3<double>& d, double tilt) {
   const int best = furthest_of_hull(core, d.x(), d.y(), d.z());
   const Vec3<double> s(core.x[best], core.y[best], core.z[best]);
-  const double furthest = s.dot(d), most = furthest - 2 * tilt * core.ball;
+  const double most = s.dot(d) - 2 * tilt * core.ball;
   constexpr double same = 1e-12;  // points closer than this, relative to the size, count as one
   constexpr double straight = 1e-9;
   FlatPart part;
-  int many = 0;  // number of points near the support plane, counted without a branch
-  for (int i = 0; i < core.count; ++i)
-    many += core.x[i] * d.x() + core.y[i] * d.y() + core.z[i] * d.z() >= most ? 1 : 0;
-  if (many <= 1) [[likely]]
-    return part;
-  for (int i = 0; i < core.count; ++i) {
-    if (core.x[i] * d.x() + core.y[i] * d.y() + core.z[i] * d.z() < most) [[likely]]
-      continue;
-    const Vec3<double> to = Vec3<double>(core.x[i], core.y[i], core.z[i]) - s;
-    const double length = to.norm();
-    if (length <= same * core.ball || -to.dot(d) > tilt * length) continue;
-    if (part.dimension == 0) {
-      part = {1, to / length, length};
-    } else if (part.along.cross(to).norm() > straight * length) {
-      part.dimension = 2;
-      return part;
-    } else {
-      part.length = std::max(part.length, length);
+  for (int begin = 0; begin < core.count; begin += 64) {
+    std::uint64_t far = far_of_hull(core, d.x(), d.y(), d.z(), most, begin);
+    for (; far != 0; far &= far - 1) {
+      const int i = begin + std::countr_zero(far);
+      if (i == best) continue;
+      const Vec3<double> to = Vec3<double>(core.x[i], core.y[i], core.z[i]) - s;
+      const double length = to.norm();
+      if (length <= same * core.ball || -to.dot(d) > tilt * length) continue;
+      if (part.dimension == 0) {
+        part = {1, to / length, length};
+      } else if (part.along.cross(to).norm() > straight * length) {
+        part.dimension = 2;
+        return part;
+      } else {
+        part.length = std::max(part.length, length);
+      }
     }
   }
   return part;

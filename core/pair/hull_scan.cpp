@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/pair/hull_scan.h"
 
+#include <algorithm>
+
 #if defined(__x86_64__) && defined(__GNUC__)
 #include <immintrin.h>
 #define MINKRAY_HULL_SCAN_AVX2
@@ -32,7 +34,31 @@ int scan(const ShapeCore& hull, double x, double y, double z) {
   return best_of_lanes(reach, index);
 }
 
+std::uint64_t far_plain(const ShapeCore& hull, double x, double y, double z, double least,
+                        int begin, int end) {
+  std::uint64_t bits = 0;
+  for (int i = begin; i < end; ++i)
+    if (hull.x[i] * x + hull.y[i] * y + hull.z[i] * z >= least)
+      bits |= std::uint64_t{1} << (i - begin);
+  return bits;
+}
+
 #ifdef MINKRAY_HULL_SCAN_AVX2
+[[gnu::target("avx2")]] std::uint64_t far_avx2(const ShapeCore& hull, double x, double y, double z,
+                                               double least, int begin, int end) {
+  const __m256d X = _mm256_set1_pd(x), Y = _mm256_set1_pd(y), Z = _mm256_set1_pd(z),
+                limit = _mm256_set1_pd(least);
+  std::uint64_t bits = 0;
+  for (int i = begin; i < end; i += 4) {
+    const __m256d r = _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(_mm256_loadu_pd(hull.x + i), X),
+                                                  _mm256_mul_pd(_mm256_loadu_pd(hull.y + i), Y)),
+                                    _mm256_mul_pd(_mm256_loadu_pd(hull.z + i), Z));
+    const int four = _mm256_movemask_pd(_mm256_cmp_pd(r, limit, _CMP_GE_OQ));
+    bits |= static_cast<std::uint64_t>(four) << (i - begin);
+  }
+  return bits;
+}
+
 [[gnu::target("avx2")]] int scan_avx2(const ShapeCore& hull, double x, double y, double z) {
   const __m256d X = _mm256_set1_pd(x), Y = _mm256_set1_pd(y), Z = _mm256_set1_pd(z);
   const double *px = hull.x, *py = hull.y, *pz = hull.z;
@@ -74,6 +100,15 @@ int furthest_of_hull(const ShapeCore& hull, double x, double y, double z) {
   if (__builtin_cpu_supports("avx2")) return scan_avx2(hull, x, y, z);
 #endif
   return scan(hull, x, y, z);
+}
+
+std::uint64_t far_of_hull(const ShapeCore& hull, double x, double y, double z, double least,
+                          int begin) {
+  const int end = std::min(hull.count, begin + 64);
+#ifdef MINKRAY_HULL_SCAN_AVX2
+  if (__builtin_cpu_supports("avx2")) return far_avx2(hull, x, y, z, least, begin, end);
+#endif
+  return far_plain(hull, x, y, z, least, begin, end);
 }
 
 }  // namespace minkray

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Finds the point of a hull that is furthest along a direction by scanning all points, eight at a
-// time.
+// Finds the points of a hull that are furthest along a direction by scanning all points, several at
+// a time.
 #pragma once
+
+#include <cstdint>
 
 #include "core/derived/core_and_radius.h"
 
@@ -10,5 +12,10 @@ namespace minkray {
 /// Returns an index below hull.count. The result is the same on every machine: with and without
 /// AVX2, the same numbers are compared in the same order.
 int furthest_of_hull(const ShapeCore& hull, double x, double y, double z);
+
+/// Returns which of the 64 points from `begin` on are at least that far along the direction, as
+/// bits. The same on every machine, too.
+std::uint64_t far_of_hull(const ShapeCore& hull, double x, double y, double z, double least,
+                          int begin);
 
 }  // namespace minkray

@@ -43,19 +43,23 @@ Vec3<double> in_core(const ContactShape& shape, const Mat3<double>& linear, cons
   return shape.is_turned() ? Vec3<double>(shape.turn().transpose() * own) : own;
 }
 
-/// True if the bodies, moved together along the normal, may touch in more than a point.
-bool have_many_points(const ContactShape& a, const Mat3<double>& linear_a, const ContactShape& b,
-                      const Mat3<double>& linear_b, const Vec3<double>& normal, double interval,
-                      double length) {
-  if (!has_flat_parts(a.core()) || !has_flat_parts(b.core())) return false;
-  if (is_slow(a.core()) && !is_slow(b.core()))
-    return have_many_points(b, linear_b, a, linear_a, -normal, interval, length);
+/// True if bodies with flat parts may touch each other in more than a point when they are moved
+/// together.
+bool touch_in_many_points(const ContactShape& a, const Mat3<double>& linear_a,
+                          const ContactShape& b, const Mat3<double>& linear_b,
+                          const Vec3<double>& normal, double interval, double length) {
   const double tilt = tilt_of(interval, length);
-  const FlatPart of_a = flat_part(a.core(), in_core(a, linear_a, normal), tilt);
-  if (of_a.dimension == 0) [[likely]]
-    return false;
-  const FlatPart of_b = flat_part(b.core(), in_core(b, linear_b, -normal), tilt);
-  if (of_b.dimension == 0) return false;
+  FlatPart of_a, of_b;
+  const auto a_is_flat = [&] {
+    of_a = flat_part(a.core(), in_core(a, linear_a, normal), tilt);
+    return of_a.dimension > 0;
+  };
+  const auto b_is_flat = [&] {
+    of_b = flat_part(b.core(), in_core(b, linear_b, -normal), tilt);
+    return of_b.dimension > 0;
+  };
+  const bool b_first = is_slow(a.core()) && !is_slow(b.core());
+  if (b_first ? !b_is_flat() || !a_is_flat() : !a_is_flat() || !b_is_flat()) return false;
   if (of_a.dimension == 2 || of_b.dimension == 2) return true;
   const Mat3<double> turn_a = turn_in_world(a, linear_a), turn_b = turn_in_world(b, linear_b);
   // Two edges have one common point, unless they are nearly parallel: the gap then grows by less
@@ -65,9 +69,17 @@ bool have_many_points(const ContactShape& a, const Mat3<double>& linear_a, const
   return sine <= tilt || sine * shorter <= std::sqrt(2 * interval * length);
 }
 
-/// Largest angle between the normal and other directions of least depth; `not_known` if they may be
-/// any. Moves B deeper along the normal by `step` sizes. Then the depth along the normal grows
-/// most, so other directions become better.
+/// Same for any bodies.
+bool have_many_points(const ContactShape& a, const Mat3<double>& linear_a, const ContactShape& b,
+                      const Mat3<double>& linear_b, const Vec3<double>& normal, double interval,
+                      double length) {
+  return has_flat_parts(a.core()) && has_flat_parts(b.core()) &&
+         touch_in_many_points(a, linear_a, b, linear_b, normal, interval, length);
+}
+
+/// Angle by which other directions of the depth may lean, infinite if they may be any. Deeper along
+/// the normal by `step` sizes, all others are better than it: the depth is a concave function of
+/// B's place.
 double tilt_of_depth(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                      const Affine<double>& pose_b, const SignedDistance& found, double step,
                      double tolerance) {
@@ -94,8 +106,20 @@ double tilt_of_depth(const ContactShape& a, const Affine<double>& pose_a, const 
   return rounded * tilt;
 }
 
-/// True if the normal may be less accurate than derivatives require. This is so for shapes known
-/// only by their support mapping, and for shapes that nearly touch and have no closed form.
+/// The same angle for a bound of the error: the longer the step, the closer.
+double least_tilt_of_depth(const ContactShape& a, const Affine<double>& pose_a,
+                           const ContactShape& b, const Affine<double>& pose_b,
+                           const SignedDistance& found) {
+  constexpr double rounded = 1.01;
+  for (const double step : {1e-2, 1e-4}) {
+    const double tilt = tilt_of_depth(a, pose_a, b, pose_b, found, step, 1e-12);
+    if (tilt != not_known) return rounded * tilt;
+  }
+  return not_known;
+}
+
+/// True if the normal that was found may lean by more than derivatives should: of shapes known by
+/// their support mapping only, and of those that nearly touch and have no closed form.
 bool may_be_rough(const ShapeCore& a, const ShapeCore& b, double interval, double between_cores) {
   if (a.kind == CoreKind::other || b.kind == CoreKind::other) return true;
   constexpr double precise = 1e-6;
@@ -103,19 +127,40 @@ bool may_be_rough(const ShapeCore& a, const ShapeCore& b, double interval, doubl
     return core.kind != CoreKind::point && core.kind != CoreKind::segment;
   };
   return between_cores > interval && is_searched(a) && is_searched(b) &&
-         tilt_of(interval, between_cores) > precise;
+         !(2 * interval <= precise * precise * between_cores);
 }
 
 TwistDerivative of_point(const Vec3<double>& weight, const Vec3<double>& arm) {
   return {weight, arm.cross(weight)};
 }
 
-/// Rotation matrix of a rotation vector.
-Mat3<double> turned_by(const Vec3<double>& rotation) {
-  const double angle = rotation.norm();
-  if (!(angle > 0)) return Mat3<double>::Identity();
-  return Eigen::AngleAxis<double>(angle, rotation / angle).toRotationMatrix();
-}
+/// A body at the time of its first contact.
+struct BodyAtContact {
+  Vec3<double> arm;       ///< from its pivot to the contact point
+  Vec3<double> velocity;  ///< of the contact point
+  double angle = 0;       ///< by which it has turned
+  Mat3<double> turn;      ///< not set if it has not turned
+  Mat3<double> linear;
+
+  BodyAtContact(const RigidMotion& motion, double time, const Vec3<double>& point)
+      : arm(point - (motion.pose.translation + time * motion.velocity)),
+        velocity(motion.velocity + motion.angular_velocity.cross(arm)),
+        linear(motion.pose.linear) {
+    const Vec3<double> rotation = time * motion.angular_velocity;
+    angle = rotation.norm();
+    if (!(angle > 0)) return;
+    turn = Eigen::AngleAxis<double>(angle, rotation / angle).toRotationMatrix();
+    linear = turn * motion.pose.linear;
+  }
+
+  /// `weight` is the derivative with respect to the contact point. A turn of the body at time 0
+  /// acts later about an axis that has turned with it.
+  TwistDerivative derivative(const Vec3<double>& weight) const {
+    TwistDerivative found = of_point(weight, arm);
+    if (angle > 0) found.by_turn = turn.transpose() * found.by_turn;
+    return found;
+  }
+};
 
 /// Returns the contact of the cores, made more accurate if `is_rough`.
 CoreContact contact_of(const CoresInWorld& cores, const Vec3<double>& middle,
@@ -127,27 +172,25 @@ CoreContact contact_of(const CoresInWorld& cores, const Vec3<double>& middle,
   return contact;
 }
 
-}  // namespace
-
-PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a,
-                             const ContactShape& b, const Affine<double>& pose_b,
-                             const SignedDistance& found, PairDerivativeError* error,
-                             const Drift& drift) {
+/// The derivative of a distance that has both bounds.
+PairDerivative of_distance(const ContactShape& a, const Affine<double>& pose_a,
+                           const ContactShape& b, const Affine<double>& pose_b,
+                           const SignedDistance& found, PairDerivativeError* error,
+                           const Drift& drift) {
   const double interval = found.upper - found.lower;
-  if (error) *error = {};
-  if (found.is_unknown() || !std::isfinite(interval)) return unknown(true);
-  PairDerivative derivative{of_point(-found.normal, found.point_a - pose_a.translation),
-                            of_point(found.normal, found.point_b - pose_b.translation)};
   const double between_cores = found.value + a.core().radius + b.core().radius;
+  PairDerivative derivative{of_point(-found.normal, found.point_a - pose_a.translation),
+                            of_point(found.normal, found.point_b - pose_b.translation),
+                            have_many_points(a, pose_a.linear, b, pose_b.linear, found.normal,
+                                             interval, std::abs(between_cores))};
   double depth_tilt = not_known;
-  derivative.is_ridge = have_many_points(a, pose_a.linear, b, pose_b.linear, found.normal, interval,
-                                         std::abs(between_cores));
   if (!derivative.is_ridge && !(between_cores > interval)) {
     depth_tilt = tilt_of_depth(a, pose_a, b, pose_b, found);
     derivative.is_ridge = depth_tilt == not_known;
   }
   const bool is_rough = may_be_rough(a.core(), b.core(), interval, between_cores);
-  if (!is_rough && !error) return derivative;
+  if (!is_rough && !error) [[likely]]
+    return derivative;
   const CoresInWorld cores(a, pose_a, b, pose_b);
   const Vec3<double> middle = middle_in_world(a, pose_a);
   const CoreContact contact = contact_of(cores, middle, found, is_rough);
@@ -158,10 +201,23 @@ PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a
     derivative.b = of_point(contact.normal, contact.a + contact.c - origin_b);
   }
   if (error && !derivative.is_ridge) {
+    if (depth_tilt != not_known)
+      depth_tilt = std::min(depth_tilt, least_tilt_of_depth(a, pose_a, b, pose_b, found));
     depth_tilt += (contact.normal - found.normal).norm();
     *error = error_of(cores, contact, found, depth_tilt, origin_a, origin_b, drift);
   }
   return derivative;
+}
+
+}  // namespace
+
+PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a,
+                             const ContactShape& b, const Affine<double>& pose_b,
+                             const SignedDistance& found, PairDerivativeError* error,
+                             const Drift& drift) {
+  if (error) *error = {};
+  if (found.is_unknown() || !std::isfinite(found.upper - found.lower)) return unknown(true);
+  return of_distance(a, pose_a, b, pose_b, found, error, drift);
 }
 
 PairDerivative finest_derivative_of(const ContactShape& a, const Affine<double>& pose_a,
@@ -187,6 +243,24 @@ PairDerivative derivative_at_half_space(const Vec3<double>& origin, const Contac
   return derivative;
 }
 
+namespace {
+
+PairDerivative of_hit(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
+                      const RigidMotion& motion_b, const Impact& found) {
+  const BodyAtContact of_a(motion_a, found.t_lo, found.point_a),
+      of_b(motion_b, found.t_lo, found.point_b);
+  const double closing = found.normal.dot(of_a.velocity - of_b.velocity);
+  constexpr double grazing = 1e-6;  // of the points' speeds: less is no approach to speak of
+  constexpr double known = 1e-12;   // of the sizes: what the normal of a contact is known to
+  const double size = a.ball_radius() + b.ball_radius();
+  return {of_a.derivative(-found.normal / closing), of_b.derivative(found.normal / closing),
+          !(closing > grazing * (of_a.velocity.norm() + of_b.velocity.norm())) ||
+              have_many_points(a, of_a.linear, b, of_b.linear, found.normal, known * known * size,
+                               size)};
+}
+
+}  // namespace
+
 PairDerivative derivative_of(const ContactShape& a, const RigidMotion& motion_a,
                              const ContactShape& b, const RigidMotion& motion_b,
                              const Impact& found) {
@@ -194,35 +268,7 @@ PairDerivative derivative_of(const ContactShape& a, const RigidMotion& motion_a,
   if (found.status == ImpactStatus::inside) return {};
   if (found.status == ImpactStatus::undecided || !std::isfinite(found.distance))
     return unknown(true);
-  const double time = found.t_lo;
-  const auto velocity_of = [&](const RigidMotion& motion, const Vec3<double>& arm) {
-    return Vec3<double>(motion.velocity + motion.angular_velocity.cross(arm));
-  };
-  const auto arm_of = [&](const RigidMotion& motion, const Vec3<double>& point) {
-    return Vec3<double>(point - (motion.pose.translation + time * motion.velocity));
-  };
-  const Vec3<double> arm_a = arm_of(motion_a, found.point_a),
-                     arm_b = arm_of(motion_b, found.point_b);
-  const Vec3<double> velocity_a = velocity_of(motion_a, arm_a),
-                     velocity_b = velocity_of(motion_b, arm_b);
-  const double closing = found.normal.dot(velocity_a - velocity_b);
-  const Mat3<double> turn_a = turned_by(time * motion_a.angular_velocity),
-                     turn_b = turned_by(time * motion_b.angular_velocity);
-  // If a body is turned at time 0, the axis of this turn rotates with the body until the contact.
-  const auto back = [&](TwistDerivative derivative, const Mat3<double>& turn) {
-    derivative.by_turn = turn.transpose() * derivative.by_turn;
-    return derivative;
-  };
-  PairDerivative derivative{back(of_point(-found.normal / closing, arm_a), turn_a),
-                            back(of_point(found.normal / closing, arm_b), turn_b)};
-  constexpr double grazing = 1e-6;  // relative to the points' speeds; a slower approach is grazing
-  constexpr double known = 1e-12;   // error bound of the normal, relative to the sizes
-  const double size = a.ball_radius() + b.ball_radius();
-  derivative.is_ridge =
-      !(closing > grazing * (velocity_a.norm() + velocity_b.norm())) ||
-      have_many_points(a, turn_a * motion_a.pose.linear, b, turn_b * motion_b.pose.linear,
-                       found.normal, known * known * size, size);
-  return derivative;
+  return of_hit(a, motion_a, b, motion_b, found);
 }
 
 }  // namespace minkray

@@ -143,6 +143,8 @@ void by_gjk(const CoresInWorld& cores, double slack, CoreContact& contact) {
   const CoreContact first = contact_along(cores, contact.normal);
   simplex.add({first.c, first.a});
   double highest = first.normal.dot(first.c) + slack;
+  // No direction is better than the length of any c.
+  if (contact.c.norm() <= highest) return;
   double nearest = std::numeric_limits<double>::infinity();
   int stalls = 0;
   Vertex v{first.c, first.a};
@@ -179,11 +181,11 @@ Vec3<double> CoresInWorld::support_b(const Vec3<double>& n) const {
 }
 
 void sharpen(const CoresInWorld& cores, CoreContact& contact) {
-  if (by_newton(cores, contact)) return;
-  if (!(contact.normal.dot(contact.c) > 0)) return;
-  // If both kinds are known, the previous result usually is more accurate; GJK must be clearly
-  // better.
   const bool is_known = cores.a.kind != CoreKind::other && cores.b.kind != CoreKind::other;
+  const bool is_curved = !is_known || slides(cores.a.kind) || slides(cores.b.kind);
+  if (is_curved && by_newton(cores, contact)) return;
+  if (!(contact.normal.dot(contact.c) > 0)) return;
+  // Solvers that know a core's kind are better than this, but where they fail.
   by_gjk(cores, is_known ? 8 * epsilon * (cores.size() + cores.between.x.norm()) : 0, contact);
 }
 

@@ -101,7 +101,9 @@ SignedDistance of_lines(const NearBodies& near) {
 SignedDistance of_point_and_solid(const NearBodies& near) {
   const Mat3<double> turn = turn_in_world(near.b, near.linear_b);
   const auto search = [&] {
-    CoreDistance found = between_solid_and_point(near.b.core(), turn.transpose() * -near.between.x);
+    CoreDistance found =
+        between_solid_and_point(near.b.core(), turn.transpose() * -near.between.x,
+                                deeper_by(near.a.ball_radius() + near.b.ball_radius()));
     found.axis = -found.axis;
     found.c = -found.c;
     found.a.setZero();

@@ -143,6 +143,14 @@ class SlidingFeatures {
     return true;
   }
 
+  /// Where an edge of A crosses one of B, C has a face with four corners. If only two opposite ones
+  /// are known, adds the others: a corner whose angle is small is hard to hit.
+  void complete_face() {
+    if (count_ != 2 || feature_a_[0] == feature_a_[1] || feature_b_[0] == feature_b_[1]) return;
+    append(feature_a_[0], feature_b_[1], 0);
+    append(feature_a_[1], feature_b_[0], 0);
+  }
+
   /// One step of sharpen(): computes the features' weights and the next direction. Returns false if
   /// the gap has no maximum there. `least` is the feature with the least weight.
   bool step_to_peak(const Vec3<double>& n, Vec3<double>& next, int& least);
@@ -267,30 +275,32 @@ bool SlidingFeatures<A, B>::run(const Vec3<double>& d, double damping) {
 
 template <CoreKind A, CoreKind B>
 bool SlidingFeatures<A, B>::step_to_peak(const Vec3<double>& n, Vec3<double>& next, int& least) {
-  DifferencePoint on[4];
-  Vec3<double> aside[4];
+  const Vec3<double> of_b = query_.pair.to_b(-n);
+  Vec3<double> a[4], b[4], c[4];
   for (int i = 0; i < count_; ++i) {
-    on[i] = on_features(i, n);
-    aside[i] = on[i].c - n.dot(on[i].c) * n;
+    a[i] = point_of_feature<A>(query_.pair.a, feature_a_[i], n);
+    b[i] = point_of_feature<B>(query_.pair.b, feature_b_[i], of_b);
+    c[i] = query_.pair.x + query_.pair.turn * b[i] - a[i];
   }
   next = n;
   weight_[0] = 1;
   if (count_ == 2) {
-    const Vec3<double> across = aside[0] - aside[1];
+    const auto aside = [&](int i) -> Vec3<double> { return c[i] - n.dot(c[i]) * n; };
+    const Vec3<double> across = aside(0) - aside(1);
     const double squared = across.squaredNorm();
     if (!(squared > 0)) return false;
-    weight_[0] = -aside[1].dot(across) / squared;
+    weight_[0] = -aside(1).dot(across) / squared;
     weight_[1] = 1 - weight_[0];
-    next -= (n.dot(on[0].c - on[1].c) / squared) * across;
+    next -= (n.dot(c[0] - c[1]) / squared) * across;
   } else if (count_ > 2) {
-    const Vec3<double> u = on[1].c - on[0].c, v = on[2].c - on[0].c, plane = u.cross(v);
+    const Vec3<double> u = c[1] - c[0], v = c[2] - c[0], plane = u.cross(v);
     const double squared = plane.squaredNorm();
     constexpr double thinnest = 1e-3;  // sine of the least angle between u and v
     if (!(squared > thinnest * thinnest * u.squaredNorm() * v.squaredNorm())) return false;
     next = plane / std::sqrt(squared);
     if (next.dot(n) < 0) next = -next;
     // Weights of the plane's point nearest to the origin, by areas.
-    const Vec3<double> to_foot = next.dot(on[0].c) * next - on[0].c;
+    const Vec3<double> to_foot = next.dot(c[0]) * next - c[0];
     weight_[1] = to_foot.cross(v).dot(plane) / squared;
     weight_[2] = u.cross(to_foot).dot(plane) / squared;
     weight_[0] = 1 - weight_[1] - weight_[2];
@@ -302,18 +312,16 @@ bool SlidingFeatures<A, B>::step_to_peak(const Vec3<double>& n, Vec3<double>& ne
   least = 0;
   for (int i = 0; i < count_; ++i) {
     if (weight_[i] < weight_[least]) least = i;
-    const Vec3<double> of_b = query_.pair.to_b(-n),
-                       b = point_of_feature<B>(query_.pair.b, feature_b_[i], of_b);
-    sharp_a_ += weight_[i] * on[i].a;
-    sharp_c_ += weight_[i] * on[i].c;
+    sharp_a_ += weight_[i] * a[i];
+    sharp_c_ += weight_[i] * c[i];
     add_curvature<A>(S, weight_[i], query_.pair.a, Mat3<double>::Identity(), feature_a_[i], n,
-                     on[i].a);
-    add_curvature<B>(S, weight_[i], query_.pair.b, query_.pair.turn, feature_b_[i], of_b, b);
+                     a[i]);
+    add_curvature<B>(S, weight_[i], query_.pair.b, query_.pair.turn, feature_b_[i], of_b, b[i]);
   }
   const double depth = -n.dot(sharp_c_);
   if (count_ == 1) return climb(S, depth, n, sharp_c_, next);
   if (count_ == 2) {
-    const Vec3<double> along = n.cross(on[0].c - on[1].c).normalized();
+    const Vec3<double> along = n.cross(c[0] - c[1]).normalized();
     const double bend = along.dot(S * along), peak = bend - depth;
     constexpr double flattest = 1e-3;
     if (!(peak > flattest * (bend + depth))) return false;
@@ -336,8 +344,12 @@ bool SlidingFeatures<A, B>::sharpen(const Vec3<double>& d, double turn) {
   };
   const Vec3<double> e0 = d.unitOrthogonal(), e1 = d.cross(e0);
   if (!take(d)) return false;
-  for (const double angle : {0.0, 1.0472, 2.0944, 3.1416, 4.1888, 5.236})
-    if (!take(d + turn * (std::cos(angle) * e0 + std::sin(angle) * e1))) return false;
+  constexpr double half_root = 0.8660254037844386;
+  constexpr double around[6][2] = {{1, 0},  {0.5, half_root},   {-0.5, half_root},
+                                   {-1, 0}, {-0.5, -half_root}, {0.5, -half_root}};
+  for (const auto& way : around)
+    if (!take(d + turn * (way[0] * e0 + way[1] * e1))) return false;
+  complete_face();
   constexpr int most_steps = 12;
   constexpr double still = 1e-12;    // radians
   constexpr double outside = -1e-9;  // of a weight
@@ -351,6 +363,7 @@ bool SlidingFeatures<A, B>::sharpen(const Vec3<double>& d, double turn) {
       --count_;
       feature_a_[least] = feature_a_[count_];
       feature_b_[least] = feature_b_[count_];
+      complete_face();
       direction_ = d;
       continue;
     }

@@ -69,6 +69,19 @@ SignedDistance distance_of(const PosedBody& a, const PosedBody& b, PairMemory* m
   return found;
 }
 
+PairDerivative derivative_at(const PosedBody& a, const PosedBody& b, const SignedDistance& found,
+                             PairDerivativeError* error) {
+  if (are_shapes(a, b))
+    return derivative_of(a.shape(), a.pose(), b.shape(), b.pose(), found, error);
+  return derivative_of(a.parts(), a.pose(), b.parts(), b.pose());
+}
+
+PairDerivative derivative_at(const PosedBody& a, const RigidMotion& motion_a, const PosedBody& b,
+                             const RigidMotion& motion_b, const Impact& found, double end) {
+  if (are_shapes(a, b)) return derivative_of(a.shape(), motion_a, b.shape(), motion_b, found);
+  return derivative_of(a.parts(), motion_a, b.parts(), motion_b, end);
+}
+
 template <class To, class From>
 void tell(To* to, std::size_t i, From from) {
   if (to) to[i] = static_cast<To>(from);
@@ -183,12 +196,8 @@ int minkray_signed_distances(const minkray_bodies* a, const minkray_bodies* b, s
               tell(to, i, found);
               if (!derive) return;
               PairDerivativeError error;
-              tell_derivative(
-                  to, i,
-                  are_shapes(one, other)
-                      ? derivative_of(one.shape(), one.pose(), other.shape(), other.pose(), found,
-                                      bound ? &error : nullptr)
-                      : derivative_of(one.parts(), one.pose(), other.parts(), other.pose()));
+              tell_derivative(to, i, derivative_at(one, other, found, bound ? &error : nullptr));
+              if (!bound) return;
               tell(to.jac_error_a, i, error.a);
               tell(to.jac_error_b, i, error.b);
             });
@@ -216,9 +225,7 @@ int minkray_times_of_impact(const minkray_bodies* a, const minkray_bodies* b, si
               tell(to, i, found);
               if (!derive) return;
               const PairDerivative derivative =
-                  are_shapes(one, other)
-                      ? derivative_of(one.shape(), motion_a, other.shape(), motion_b, found)
-                      : derivative_of(one.parts(), motion_a, other.parts(), motion_b, end);
+                  derivative_at(one, motion_a, other, motion_b, found, end);
               tell_derivative(to, i, derivative);
               if (!bound) return;
               const PairDerivativeError error =

@@ -30,9 +30,10 @@ inline double end_of(const Impact& found) {
   return touch ? found.t_hi : std::numeric_limits<double>::infinity();
 }
 
-/// Three numbers of an array of threes.
+/// Three numbers of an array of threes. Not by std::copy_n, which is a call.
 inline void put(const Vec3<double>& from, double* to, std::size_t i = 0) {
-  if (to) std::copy_n(from.data(), 3, to + 3 * i);
+  if (!to) return;
+  for (std::size_t k = 0; k < 3; ++k) to[3 * i + k] = from[static_cast<Eigen::Index>(k)];
 }
 
 }  // namespace minkray
