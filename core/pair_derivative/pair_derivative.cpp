@@ -106,7 +106,7 @@ double tilt_of_depth(const ContactShape& a, const Affine<double>& pose_a, const 
   return rounded * tilt;
 }
 
-/// The same angle for a bound of the error: the longer the step, the closer.
+/// Returns a smaller such angle, which bounds of the error need: the longer the step, the smaller.
 double least_tilt_of_depth(const ContactShape& a, const Affine<double>& pose_a,
                            const ContactShape& b, const Affine<double>& pose_b,
                            const SignedDistance& found) {
