@@ -143,8 +143,8 @@ class SlidingFeatures {
     return true;
   }
 
-  /// Where an edge of A crosses one of B, C has a face with four corners. If only two opposite ones
-  /// are known, adds the others: a corner whose angle is small is hard to hit.
+  /// Completes a face of C where an edge of A crosses one of B. If only two opposite corners are
+  /// known, adds the other two: a corner whose angle is small is hard to hit.
   void complete_face() {
     if (count_ != 2 || feature_a_[0] == feature_a_[1] || feature_b_[0] == feature_b_[1]) return;
     append(feature_a_[0], feature_b_[1], 0);

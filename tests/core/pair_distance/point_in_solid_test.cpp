@@ -38,7 +38,7 @@ TEST(PointInSolid, has_one_direction_only_if_a_step_along_it_is_as_deep_as_long)
     if (is_one) {
       ASSERT_LT(lean, 1e-6) << k << " " << at.transpose();
     }
-    // Of directions that are as good the step favours none.
+    // A step that leans so far shows a second direction.
     if (lean > 1e-3) {
       ASSERT_FALSE(is_one) << k << " " << at.transpose();
     }
