@@ -8,8 +8,8 @@
 namespace minkray {
 namespace {
 
-/// Returns the signed distance of a box and a point p. c leads from the box's nearest point to p;
-/// for a p inside, from the nearest face.
+/// Returns the signed distance of a box and a point p. c is the vector to p from the box's nearest
+/// point or, if p is inside, from the nearest face.
 CoreDistance point_and_box(const Vec3<double>& half, const Vec3<double>& p, double deeper) {
   const Vec3<double> nearest = p.cwiseMax(-half).cwiseMin(half);
   if (nearest != p) return closed_between(nearest, p - nearest, Vec3<double>::UnitX());

@@ -79,10 +79,10 @@ struct CoreDistance {
   }
 };
 
-/// Distance of a test for other directions of least depth: B is moved deeper along the axis by this
-/// distance. The depth along another direction grows by the distance times the cosine of its angle
-/// to the axis. If the least depth grows by at least 1 - `leaning` of the distance, its direction
-/// is unique.
+/// Returns the distance by which B is moved deeper along the axis, to test whether other directions
+/// also have the least depth. The depth along another direction grows by this distance times the
+/// cosine of the angle between that direction and the axis. If the least depth grows by at least 1
+/// - `leaning` of the distance, the direction of the least depth is unique.
 inline double deeper_by(double sizes) {
   constexpr double step = 1e-4;
   return step * sizes;

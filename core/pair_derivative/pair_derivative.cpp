@@ -43,8 +43,8 @@ Vec3<double> in_core(const ContactShape& shape, const Mat3<double>& linear, cons
   return shape.is_turned() ? Vec3<double>(shape.turn().transpose() * own) : own;
 }
 
-/// True if bodies with flat parts may touch each other in more than a point when they are moved
-/// together.
+/// True if two bodies with flat parts, moved together along the normal, may touch in more than a
+/// point.
 bool touch_in_many_points(const ContactShape& a, const Mat3<double>& linear_a,
                           const ContactShape& b, const Mat3<double>& linear_b,
                           const Vec3<double>& normal, double interval, double length) {
@@ -77,9 +77,9 @@ bool have_many_points(const ContactShape& a, const Mat3<double>& linear_a, const
          touch_in_many_points(a, linear_a, b, linear_b, normal, interval, length);
 }
 
-/// Angle by which other directions of the depth may lean, infinite if they may be any. Deeper along
-/// the normal by `step` sizes, all others are better than it: the depth is a concave function of
-/// B's place.
+/// Largest angle between the normal and other directions of least depth; `not_known` if they may be
+/// any. Moves B deeper along the normal by `step` sizes. Then the depth along the normal grows
+/// most, so other directions become better.
 double tilt_of_depth(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                      const Affine<double>& pose_b, const SignedDistance& found, double step,
                      double tolerance) {
@@ -118,8 +118,8 @@ double least_tilt_of_depth(const ContactShape& a, const Affine<double>& pose_a,
   return not_known;
 }
 
-/// True if the normal that was found may lean by more than derivatives should: of shapes known by
-/// their support mapping only, and of those that nearly touch and have no closed form.
+/// True if the normal may be less accurate than derivatives require. This is so for shapes known
+/// only by their support mapping, and for shapes that nearly touch and have no closed form.
 bool may_be_rough(const ShapeCore& a, const ShapeCore& b, double interval, double between_cores) {
   if (a.kind == CoreKind::other || b.kind == CoreKind::other) return true;
   constexpr double precise = 1e-6;
