@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // GJK ray cast: Algorithm 3 of G. van den Bergen, "Ray Casting against General Convex Objects with
 // Application to Continuous Collision Detection" (2004), section 4. x = s + lambda r is on the ray;
-// p a support point, w = x - p; P the simplex' support points, Y = x - P; v the point of Y closest
-// to the origin and the next direction; n the last v that moved lambda. Points are relative to the
-// bounding ball's centre, lambda to the ray's point closest to that centre.
+// p is a support point, w = x - p; P are the simplex' support points, Y = x - P; v is the point of
+// Y closest to the origin, and is also the next direction; n is the last v that moved lambda.
+// Points are relative to the bounding ball's centre; lambda is 0 at the ray's closest point to it.
 #pragma once
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// First contact of two bodies that move and turn: second-order conservative advancement with proven
-// distances (B. Mirtich, "Impulse-based Dynamic Simulation of Rigid Body Systems", 1996, section
-// 2.3). Bodies that do not turn need no time steps (swept_portal.h).
+// Finds the first contact of two bodies that move and turn, by second-order conservative
+// advancement with proven distances (B. Mirtich, "Impulse-based Dynamic Simulation of Rigid Body
+// Systems", 1996, section 2.3). Bodies that do not turn need no time steps (swept_portal.h).
 #pragma once
 
 #include "core/pair_distance/signed_distance.h"
@@ -19,10 +19,10 @@ struct RigidMotion {
 };
 
 enum class ImpactStatus : unsigned char {
-  miss,       ///< no contact before t_max
+  miss,       ///< no contact from time 0 to t_max
   hit,        ///< the first contact is between t_lo and t_hi
-  inside,     ///< the bodies overlap at time 0, or touch and approach each other
-  undecided,  ///< no contact before t_lo; not known after it
+  inside,     ///< the bodies overlap at time 0, or touch at time 0 and do not part
+  undecided,  ///< no contact before t_lo; contacts after t_lo are unknown
 };
 
 constexpr std::string_view name_of(ImpactStatus status) {
@@ -39,30 +39,36 @@ constexpr std::string_view name_of(ImpactStatus status) {
   return "undecided";
 }
 
+/// Result of the search for the first contact of bodies A and B. A contact at time 0 after which
+/// the bodies part does not count as a contact.
 struct Impact {
   ImpactStatus status = ImpactStatus::undecided;
-  double t_lo = 0;  ///< no contact before t_lo, except at time 0 if the bodies then part
-  double t_hi = std::numeric_limits<double>::infinity();  ///< at t_hi the bodies touch or overlap
-  /// Nearest points and normal from A to B at t_lo (for a miss: at t_max), in the world.
+  double t_lo = 0;  ///< no contact before t_lo; t_max for a miss
+  /// Hit: a time at which the bodies touch or overlap. Inside: 0. Miss: t_max. Undecided: infinite.
+  double t_hi = std::numeric_limits<double>::infinity();
+  /// Nearest points of A and B at t_lo, and the normal from A to B, in world coordinates.
   Vec3<double> point_a = Vec3<double>::Zero();
   Vec3<double> point_b = Vec3<double>::Zero();
   Vec3<double> normal = Vec3<double>::Zero();
-  double distance = 0;  ///< distance at t_lo; infinite if unknown: points are not set
-  int steps = 0;        ///< number of distance queries
+  /// Distance at t_lo. Infinite if it is unknown, and then point_a and point_b are not set. For a
+  /// miss without `points_of_misses`: 0, and the points are not set either.
+  double distance = 0;
+  int steps = 0;  ///< number of distance queries
 };
 
 struct ImpactOptions {
-  /// Distance, relative to the sum of the sizes, below which bodies count as touching. Bodies that
-  /// pass each other more closely may be reported as a hit, but a reported miss is always a miss.
+  /// Distance, relative to the sum of the bodies' radii, up to which they count as touching. Bodies
+  /// that pass each other more closely may be reported as a hit, but a reported miss is always a
+  /// miss.
   double touching = 1e-10;
-  int max_steps = 2000;
+  int max_steps = 2000;  ///< maximum number of distance queries; beyond it the status is undecided
   /// True to compute the nearest points at t_max for a miss. The normal is always set.
   bool points_of_misses = true;
 };
 
-/// Finds the first contact of A and B at times from 0 to t_max. If bodies touch at time 0 (within
-/// `touching`) and do not part, the status is `inside`. If they part, the search continues with the
-/// next contact.
+/// Finds the first contact of A and B at times from 0 to t_max. If the bodies touch at time 0
+/// (within `touching`) and do not part, the status is `inside`. If they part, the search continues
+/// for the next contact.
 ///
 /// Each step starts at a time at which the bodies are apart, and fixes a plane between them. While
 /// a body turns by an angle theta, its extent along the plane's normal n is h(n(tau)). Here h is

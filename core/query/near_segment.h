@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The part of a ray that can meet a shape, relative to the shape's middle. Proofs that use this
-// part are as precise for far origins and infinite rays as for near ones.
+// The part of a ray that can meet a shape, relative to the centre of the shape's bounding box.
+// Proofs that use this part are as precise for far origins and infinite rays as for near origins
+// and short rays.
 #pragma once
 
 #include <cmath>
@@ -10,22 +11,30 @@
 
 namespace minkray {
 
-/// The points centre + s + lambda * r with begin <= lambda <= end, where lambda is a length. These
-/// are the ray's points between the two supporting planes of the shape that are perpendicular to
-/// the ray; no other point of the ray is in the shape. Empty if begin > end.
+/// The points centre + s + lambda * r with begin <= lambda <= end, where r is the ray's unit
+/// direction, and lambda is a length. These are the ray's points between the two supporting planes
+/// of the shape that are perpendicular to the ray; no other point of the ray is in the shape. The
+/// segment is empty if begin > end.
 struct NearSegment {
-  Vec3<double> centre, s, r;
+  Vec3<double> centre;  ///< centre of the shape's bounding box
+  Vec3<double> s;       ///< the point of the ray's line closest to `centre`, relative to `centre`
+  Vec3<double> r;       ///< unit direction of the ray
   double begin = 0, end = 0;
-  double first = 0;  ///< lambda at the supporting plane that the ray meets from outside
-  double t_base = 0, t_shift = 0;  ///< their sum is the ray's parameter at lambda = 0
+  double first = 0;  ///< lambda at the first of the two planes, even if the ray begins later
+  double t_base = 0, t_shift = 0;  ///< their sum is the ray parameter t at lambda = 0
   bool is_too_far = false;         ///< the origin is too far away: the segment is inaccurate
   double speed = 0;                ///< length of the ray's direction
-  double size = 0;  ///< magnitude of the largest coordinates: distance of the middle + radius
+  /// Upper bound of the magnitude of the shape's points in the ray's frame: distance of `centre`
+  /// from the frame's origin + radius of the bounding box.
+  double size = 0;
 
+  /// Point at lambda, relative to `centre`.
   Vec3<double> at(double lambda) const { return s + lambda * r; }
+  /// lambda at t = base + offset.
   double lambda_of(double base, double offset) const {
     return ((base - t_base) + (offset - t_shift)) * speed;
   }
+  /// t at lambda, minus t_base.
   double t_offset(double lambda) const { return speed > 0 ? t_shift + lambda / speed : 0; }
 };
 
@@ -48,8 +57,9 @@ NearSegment near_segment(const Support& support, const Ray<double>& ray) {
     near.s = ray.origin - near.centre;
     return near;
   }
-  // Moves in two steps, in long double. fma rounds once, relative to its result. The second step
-  // removes the error due to the rounded parameter of the first step.
+  // Moves s along the ray, from its origin to the point closest to the centre, in two steps in long
+  // double. fma rounds only once, relative to its result. The second step removes the error due to
+  // the rounded parameter of the first step.
   using Long = long double;
   const Vec3<Long> centre = near.centre.cast<Long>();
   Vec3<Long> s = ray.origin.cast<Long>();
@@ -65,7 +75,9 @@ NearSegment near_segment(const Support& support, const Ray<double>& ray) {
   near.t_shift = parameter();
   move(near.t_shift);
   near.s = (s - centre).cast<double>();
-  // Ratio of distances at which long double rounds as coarsely as double.
+  // The first step rounds in proportion to the distance that it moves. If that distance is more
+  // than `most` times the size of the shape's coordinates, this rounding in long double is coarser
+  // than the rounding of these coordinates in double.
   const double most = std::numeric_limits<double>::epsilon() / std::numeric_limits<Long>::epsilon();
   near.is_too_far = !(step <= most * (near.size + near.s.norm()));
   const double pad = 8 * std::numeric_limits<double>::epsilon() * near.size;

@@ -43,7 +43,7 @@ struct CutCylinder {
     if (heights[1] - heights[0] >= needed * (1.0 - rounding)) return {};
     return Misfit{"heights",
                   "must be rising, and so far apart that the planes do not cross within the "
-                  "cylinder: by at least",
+                  "cylinder: the difference must be at least",
                   double(needed)};
   }
 

@@ -16,11 +16,12 @@ struct AllowedLinks {
   std::vector<std::string> pairs;
 
   void add_options(const Verb& verb) {
-    verb.add_option("--srdf", srdf, "SRDF file (MoveIt) that lists pairs of links that may touch")
+    verb.add_option("--srdf", srdf,
+                    "SRDF file (MoveIt); pairs of links that it allows to touch are omitted")
         .reads_file();
     verb.add_option("--allow", pairs,
-                    "Two links that may touch; repeatable\n"
-                    "Links connected by a joint may always touch")
+                    "Omit this pair of links, which are allowed to touch; repeatable\n"
+                    "Links connected by a joint are always omitted")
         .takes("LINK,LINK")
         .one_value_each();
   }

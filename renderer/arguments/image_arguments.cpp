@@ -102,7 +102,7 @@ void ImageArguments::add_to(const Verb& verb, const std::string& suffix) {
   verb.add_option("--crop", crop, "Render only this region (ROI) of the picture, in pixels")
       .takes("X0,Y0,X1,Y1");
   // Takes the seed as text, since CLI11 clamps values that are too large.
-  verb.add_option("--seed", seed, "Random seed (0 to 2^64 - 1)").takes("N").show_default();
+  verb.add_option("--seed", seed, "Random seed, 0 to 2^64 - 1").takes("N").show_default();
   verb.add_flag("-q,--quiet", quiet, "Print neither progress nor a report").excludes(verbose);
 }
 
@@ -127,8 +127,9 @@ Option add_scene_option(const Verb& verb, std::string& scene) {
 }
 
 void add_camera_file_option(const Verb& verb, std::string& camera_file) {
-  verb.add_option("--camera-file", camera_file,
-                  "JSON file of a calibrated camera: its lens and picture size")
+  verb.add_option(
+          "--camera-file", camera_file,
+          "JSON file of a calibrated camera, whose lens and picture size replace the scene's")
       .reads_file();
 }
 

@@ -15,7 +15,7 @@ void add_other_files(const Verb& verb, ImportOptions& options) {
   // Accepts no names of built-in scenes: the search for them would come before the error about an
   // unknown option.
   verb.add_option("others", options.others,
-                  "More files to add to the scene\n"
+                  "More scene or robot files, whose objects are added to the scene\n"
                   "Camera and lights come from the first file that is not a robot file\n"
                   "--joint, --joints and --keyframe apply to the first file only")
       .reads_file();
@@ -56,8 +56,8 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
           "How to represent robot meshes:\n"
           "exact: triangles\n"
           "hull: convex hulls\n"
-          "Default: hull if --split is given, or if distances or contacts of an MJCF robot are "
-          "computed; otherwise exact")
+          "Default: hull if --split is given, or if the command is distance, clearance or verify "
+          "and the robot is an MJCF file; otherwise exact")
       .one_of({"hull", "exact"})
       .group(group);
   verb.add_option("--keyframe", options.keyframe, "Keyframe to use, by name or number (MJCF)")
@@ -65,15 +65,17 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
       .group(group);
   verb.add_option("--joint", options.joints,
                   "Joint value (rad, or scene units for sliding joints); repeatable\n"
-                  "Ball and free joints take several values, comma-separated")
+                  "A ball joint or a free joint takes several values, comma-separated")
       .takes("NAME=VALUE")
       .one_value_each()
       .group(group);
   if (rows)
-    verb.add_option("--joints", options.joint_rows,
-                    "File of joint values: CSV (a row of names, then rows of values) or JSON\n"
-                    "Several rows animate the robot, by default at 24 rows per second; "
-                    "a column \"time\" (s) sets other times")
+    verb.add_option(
+            "--joints", options.joint_rows,
+            "File of joint values: CSV (a row of names, then rows of values) or JSON\n"
+            "Several rows animate the robot: one row every 1/24 s, or at the times (s) in a "
+            "column or member \"time\"\n"
+            "Where a command needs a single moment, it uses time 0")
         .reads_file()
         .group(group);
   verb.add_option("--package-dir,--model-dir", options.package_dirs,
@@ -88,7 +90,9 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
                 "Skip missing mesh files (minkray info reports the number)")
       .group(group);
   return verb.add_flag("-v,--verbose", options.verbose,
-                       "Report each step and its time; list all missing meshes");
+                       "If meshes are missing, name all of them, not only their number\n"
+                       "render: also report how long loading, building, tracing and writing take\n"
+                       "verify: also print all notes on the input files");
 }
 
 }  // namespace minkray

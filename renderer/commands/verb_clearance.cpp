@@ -153,7 +153,7 @@ void add_clearance(Parser& parser, ExitCode& exit_code) {
       .reads_file();
   options->allowed.add_options(verb);
   verb.add_flag("--only-obstacles", options->only_obstacles,
-                "Check obstacles only, not self-collision");
+                "Check the robot against obstacles only, not against itself (self-collision)");
   verb.add_option("--tolerance", options->clearance.tolerance,
                   "Maximum gap between lower and upper bound of the clearance, relative to the "
                   "clearance")

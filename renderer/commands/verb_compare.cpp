@@ -20,10 +20,10 @@ void add_compare(Parser& parser, ExitCode& exit_code) {
   add_scene_option(verb, image.scene);
   add_import_options(verb, image.import);
   verb.add_option("--rays", options->rays,
-                  "Rays per object; default: 100000 (fewer above 200 objects)")
+                  "Rays per object; default: 100000, or fewer above 200 objects")
       .between(1, 1 << 30);
   verb.add_option("--directions", options->directions,
-                  "Support directions from which the two meshes of each object are made\n"
+                  "Number of support points from which the two meshes of each object are made\n"
                   "Default: 500 (100 above 500 objects)")
       .between(20, 1 << 20);
   verb.add_option(
@@ -38,7 +38,7 @@ void add_compare(Parser& parser, ExitCode& exit_code) {
   verb.add_option("-t,--threads", image.threads, "Threads; 0: one per core")
       .between(0, 1024)
       .show_default();
-  verb.add_option("--seed", image.seed, "Random seed (0 to 2^64 - 1)").takes("N").show_default();
+  verb.add_option("--seed", image.seed, "Random seed, 0 to 2^64 - 1").takes("N").show_default();
   add_solver_option(verb, image.solver);
   verb.add_flag("--json", options->json,
                 "Print JSON, with histograms of the gaps between each shape and its meshes");

@@ -294,13 +294,14 @@ void add_distance(Parser& parser, ExitCode&) {
   verb.add_option("--within", options->within,
                   "Omit pairs that are proven to be further apart than this (scene units, >= 0)");
   verb.add_flag("--only-obstacles", options->only_obstacles,
-                "Check obstacles only, not self-collision");
+                "Measure only to bodies of the other files, not between bodies of the first file");
   options->allowed.add_options(verb);
   verb.add_flag("--json", options->json, "Print JSON");
   verb.add_option("-o,--output", options->output, "CSV file to write instead of printing the table")
       .writes_file();
-  verb.add_option("--at-most", options->at_most,
-                  "For two shapes: return only a lower bound above this distance (scene units)");
+  verb.add_option(
+      "--at-most", options->at_most,
+      "For two shapes: if the distance exceeds this (scene units), report only a lower bound");
   verb.add_flag("--only-sign", options->only_sign,
                 "For two shapes: only decide whether they overlap");
   add_import_options(verb, options->import, false);

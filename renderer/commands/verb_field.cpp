@@ -119,9 +119,9 @@ void add_field(Parser& parser, ExitCode&) {
                   "Width of the picture in scene units; default: wide enough for all objects")
       .between(0.0, 1e300);
   verb.add_option("--probe", options->probe,
-                  "JSON file of a shape to use instead of points\n"
-                  "The shape is moved to each point of the plane, and the signed distance from the "
-                  "shape to the nearest object is drawn")
+                  "JSON file of a shape that replaces the point whose distance is measured\n"
+                  "The shape is moved to each point of the plane; the picture shows its signed "
+                  "distance to the nearest object")
       .reads_file();
   verb.add_option("-r,--resolution", options->resolution, "Picture size in pixels")
       .takes("WxH")

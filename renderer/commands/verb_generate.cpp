@@ -36,10 +36,12 @@ void add_generate(Parser& parser, ExitCode&) {
       .show_default();
   verb.add_option(
           "-o,--output", options->out,
-          "Scene file to write (.json); more than 1000 poses are written to a .f32 file next to it")
+          "Scene file to write, .json\n"
+          "If there are more than 1000 poses, they are all written to a .f32 file next to it (not "
+          "for hulls and tumbling)")
       .required()
       .writes_file();
-  verb.add_option("--seed", options->seed, "Random seed (0 to 2^64 - 1)").takes("N").show_default();
+  verb.add_option("--seed", options->seed, "Random seed, 0 to 2^64 - 1").takes("N").show_default();
   verb.on_call([options] {
     check_ending(options->out, ".json", "--output");
     generate_scene({options->kind, options->count, parse_seed(options->seed)}, options->out);

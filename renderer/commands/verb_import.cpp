@@ -46,7 +46,7 @@ void add_import(Parser& parser, ExitCode&) {
   verb.add_option("file", options->file, "Robot file: " + foreign_formats())
       .required()
       .reads_file();
-  verb.add_option("-o,--output", options->output, "Scene file to write (.json)")
+  verb.add_option("-o,--output", options->output, "Scene file to write, .json")
       .required()
       .writes_file();
   add_import_options(verb, options->import);

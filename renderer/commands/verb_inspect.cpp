@@ -42,11 +42,15 @@ void add_inspect(Parser& parser, ExitCode& exit_code) {
   verb.add_option("--pairs", options->pairs, "Number of object pairs whose distance the page shows")
       .between(std::size_t{0}, std::size_t{1000})
       .show_default();
-  verb.add_option("--megabytes", options->megabytes,
-                  "Maximum page size (MB); 0: automatic (6, more for large pictures)")
+  verb.add_option(
+          "--megabytes", options->megabytes,
+          "Maximum page size in MB\n"
+          "The larger the page, the more pixels can be replayed\n"
+          "0 (default): 6 MB for up to 640x360 pixels, proportionally more for larger pictures")
       .between(0.0, 2000.0);
   verb.add_flag("--serve", options->serve,
-                "Serve the page at 127.0.0.1 until Ctrl-C; a served page can replay every pixel")
+                "Serve the page at 127.0.0.1 until Ctrl-C\n"
+                "A served page can replay every pixel, a file only as many as fit into --megabytes")
       .excludes(output);
   verb.add_option("--port", options->port, "Port for --serve; 0: any free port")
       .between(0, 65535)

@@ -38,7 +38,8 @@ void add_league(Parser& parser, ExitCode&) {
                   "Add a solver: a command that works like `minkray cast -`")
       .takes("COMMAND")
       .one_value_each();
-  verb.add_option("--random", words->random, "Also cast N random rays per kind of ray and shape")
+  verb.add_option("--random", words->random,
+                  "Also cast N random rays for each pair of a shape and a kind of ray")
       .between(0, 100000)
       .show_default();
   verb.add_option("--seed", words->seed, "Random seed for --random").show_default();

@@ -169,7 +169,8 @@ void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
     models += (models.empty() ? "" : ", ") + std::string(model.name);
   verb.add_option(
           "--rays", options.rays,
-          "File of rays: .npy array of N rows: origin (3), direction (3) and optionally t_max")
+          ".npy file of rays, one per row: origin (3 numbers), direction (3) and, optionally, "
+          "t_max: the ray's end, in lengths of its direction")
       .group(heading)
       .reads_file();
   verb.add_option("--pattern", options.pattern,
@@ -189,17 +190,19 @@ void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
       .reads_file();
   verb.add_option(
           "--pose", options.pose,
-          "Position and rotation (quaternion) of the sensor; default: at the origin, not rotated")
+          "Position and rotation (quaternion) of the sensor, relative to its path (--path) or its "
+          "carrier (--on) if given; default: at the origin, not rotated")
       .group(heading)
       .takes("X,Y,Z[,QX,QY,QZ,QW]");
   verb.add_option("--on", options.mount, "Robot link or object that carries the sensor")
       .group(heading)
       .takes("NAME");
-  verb.add_option("--path", options.path,
-                  "Sensor path (CSV): time (s), x, y, z, optional qx, qy, qz, qw")
+  verb.add_option(
+          "--path", options.path,
+          "CSV file of the sensor's path: time (s), x, y, z and, optionally, qx, qy, qz, qw")
       .group(heading)
       .reads_file();
-  verb.add_option("--start", options.scan.start, "Time at which the sweep starts (s)")
+  verb.add_option("--start", options.scan.start, "Time in seconds at which the sweep starts")
       .group(heading)
       .between(-1e9, 1e9)
       .show_default();
@@ -224,7 +227,7 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .group(heading)
       .between(0.0, 1.0)
       .show_default();
-  verb.add_option("--seed", options.seed, "Random seed of noise and dropout (0 to 2^64 - 1)")
+  verb.add_option("--seed", options.seed, "Random seed of noise and dropout, 0 to 2^64 - 1")
       .group(heading)
       .takes("N")
       .show_default();
@@ -249,12 +252,12 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .group(heading)
       .between(0.0, 1.0);
   verb.add_option("--beam-rays", options.scan.beam_rays,
-                  "Rays that sample a beam (used with --divergence)")
+                  "Rays that sample a beam, used with --divergence")
       .group(heading)
       .between(1, 4096)
       .show_default();
   verb.add_option("--resolution", options.scan.resolution,
-                  "Minimum distance between two echoes of a beam (scene units)\n"
+                  "Minimum distance in scene units between two echoes of a beam\n"
                   "Used with --divergence: nearer echoes are joined")
       .group(heading)
       .between(0.0, 1e9)

@@ -143,19 +143,21 @@ void add_trace(Parser& parser, ExitCode&) {
   add_scene_option(verb, options->scene);
   add_import_options(verb, options->import);
   verb.add_option("--pixel", options->pixel,
-                  "Column and row of the pixel, from the upper left corner, such as 100,80")
+                  "Column and row of the pixel, counted from 0 at the upper left, such as 100,80")
       .required()
       .values(2, ',');
   verb.add_option("-r,--resolution", options->resolution,
                   "Picture size in pixels (default: the scene's)")
       .takes("WxH");
   add_camera_file_option(verb, options->camera_file);
-  verb.add_option("--object", options->object,
-                  "Name of the object to cast at (default: the object that the ray hits)")
+  verb.add_option(
+          "--object", options->object,
+          "Name of the object to cast at; default: the object that the ray hits or, if it hits "
+          "none, the one whose miss takes most iterations")
       .takes("NAME");
   add_solver_option(verb, options->solver);
   verb.add_flag("--json", options->json, "Print JSON");
-  verb.add_option("--svg", options->svg, "Also draw the cast into this file (SVG)").writes_file();
+  verb.add_option("--svg", options->svg, "SVG file to write: a drawing of the cast").writes_file();
   verb.on_call([options] { trace(*options); });
 }
 

@@ -250,7 +250,7 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
   const auto options = std::make_shared<VerifyOptions>();
   options->files = &verb.files();
   VerifyInputs& inputs = options->inputs;
-  verb.add_option("--robot", inputs.robot, "Robot file: " + foreign_formats())
+  verb.add_option("--robot", inputs.robot, "Robot file:\n" + foreign_formats())
       .required()
       .reads_file();
   verb.add_option(
@@ -270,14 +270,15 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
       .one_value_each()
       .reads_file();
   inputs.allowed.add_options(verb);
-  verb.add_option("--state", inputs.state,
-                  "Named SRDF state that sets the joints missing from the plan")
+  verb.add_option(
+          "--state", inputs.state,
+          "Named state of the SRDF file that gives the values of joints missing from the plan")
       .takes("NAME");
   verb.add_option("--group", inputs.group,
-                  "SRDF group whose joints are the columns of a motion in NPY")
+                  "Group of the SRDF file whose joints are the columns of an NPY plan")
       .takes("NAME");
   verb.add_option("--padding", inputs.cell.padding,
-                  "Distance that links must keep from obstacles (m)")
+                  "Distance in metres that links must keep from obstacles")
       .between(0.0, 1e6)
       .show_default();
   verb.add_option("--inflate", inputs.inflate,
@@ -285,7 +286,7 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
       .takes("LINK=RADIUS")
       .one_value_each();
   verb.add_flag("--only-obstacles", inputs.cell.only_obstacles,
-                "Check obstacles only, not self-collision");
+                "Check the robot against obstacles only, not against itself (self-collision)");
   verb.add_option("--tolerance", options->referee.tolerance,
                   "Maximum gap between lower and upper bound of the clearance, relative to the "
                   "clearance")
@@ -297,8 +298,10 @@ void add_verify(Parser& parser, ExitCode& exit_code) {
                   "If more queries are needed, the verdict is `undecided`")
       .between(std::size_t{1}, std::size_t{1'000'000'000})
       .show_default();
-  verb.add_flag("--serve", options->serve,
-                "Read one plan per line from stdin, and write one verdict per line to stdout");
+  verb.add_flag(
+      "--serve", options->serve,
+      "Read plans from stdin, one per line (a JSON message or a quoted file name); write one "
+      "verdict per line to stdout");
   verb.add_option("-s,--samples", options->samples, "Samples per pixel of a picture")
       .between(1, 1 << 20)
       .show_default();

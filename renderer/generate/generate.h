@@ -20,7 +20,7 @@ inline constexpr GeneratedKind generated_kinds[] = {
     {"ellipsoids", "densely packed rotated ellipsoids that do not overlap"},
     {"hulls", "a grid of different convex hulls"},
     {"capsules", "thin capsules at random poses"},
-    {"tumbling", "bodies of many shapes that fly apart, animated for two seconds"},
+    {"tumbling", "bodies of six different shapes, which fly apart; animated for two seconds"},
 };
 
 struct GenerateOptions {

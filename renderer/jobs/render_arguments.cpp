@@ -28,7 +28,7 @@ void RenderArguments::add_to(const Verb& verb) {
   image.samples = 16;
   image.add_to(verb, picture_suffix);
   add_solver_option(verb, image.solver);
-  verb.add_option("--exposure", exposure, "Exposure in stops (not applied to .pfm and .exr)")
+  verb.add_option("--exposure", exposure, "Exposure in stops; not applied to .pfm and .exr")
       .show_default();
   std::string kinds = "Rendering method:";
   std::vector<std::string> names;
@@ -59,13 +59,13 @@ void RenderArguments::add_to(const Verb& verb) {
       .between(0.0, 1.0)
       .show_default();
   verb.add_flag("--denoise", denoise, "Denoise (best at few samples per pixel)");
-  verb.add_flag("--half", has_halfs, "Write the colours of .exr with 16-bit floats");
+  verb.add_flag("--half", has_halfs, "Write the colours of .exr as 16-bit floats");
   std::string maps = "Tone mapping of PNG output:";
   for (const ToneMapDescription& map : tone_maps)
     maps += "\n" + std::string(map.name) + ": " + std::string(map.doc);
   verb.add_option("--tonemap", tone_map, maps).one_of(tone_map_names()).show_default();
   verb.add_option("--ray-group", ray_group,
-                  "Number of camera rays traced together (does not change the picture)")
+                  "Number of camera rays traced together; does not change the picture")
       .between(1, most_in_ray_group)
       .show_default()
       .group(research_group);
@@ -87,21 +87,25 @@ void RenderArguments::add_to(const Verb& verb) {
                   "the others come from one unfiltered ray per pixel\nChannels:" +
                       channels)
       .takes("NAMES");
-  verb.add_option("--tile", tile, "Render only tile I (from 1) of N; minkray merge joins the tiles")
+  verb.add_option(
+          "--tile", tile,
+          "Split the picture into N tiles and render only tile I (1 to N); minkray merge joins the "
+          "tiles")
       .takes("I/N")
       .group(several_machines);
-  verb.add_option(
-          "--sample-share", sample_share,
-          "Render only share I (from 1) of N of each pixel's samples; minkray merge joins the "
-          "shares")
+  verb.add_option("--sample-share", sample_share,
+                  "Split each pixel's samples into N shares and render only share I (1 to N); "
+                  "minkray merge "
+                  "joins the shares")
       .takes("I/N")
       .group(several_machines);
   verb.add_option("--tiles", tiles,
                   "Number of tiles under mpirun; default: tiles of about 64 x 64 pixels")
       .between(1, 999999)
       .group(several_machines);
-  verb.add_option("--checkpoint", checkpoint_seconds,
-                  "Seconds between checkpoints (written next to the first output); 0: none")
+  verb.add_option(
+          "--checkpoint", checkpoint_seconds,
+          "Seconds between checkpoints, which are written next to the first output; 0: none")
       .between(0.0, 1e9)
       .show_default();
   verb.add_flag("--resume", resume, "Resume from the last checkpoint, if one exists");
@@ -115,7 +119,9 @@ void RenderArguments::add_to(const Verb& verb) {
           "Frames to render, such as 0..47; #### in the output's name becomes the frame number\n"
           "With --resume, frames that are listed in NAME-####.png.frames are skipped")
       .takes("A..B");
-  verb.add_option("--rate", rate, "Frames per second (fps)").between(1e-6, 1e6).show_default();
+  verb.add_option("--rate", rate, "Frame rate in frames per second, fps")
+      .between(1e-6, 1e6)
+      .show_default();
   verb.add_option("--contact-sheet", contact_sheet, "Picture to write: thumbnails of all frames")
       .writes_file();
   verb.add_flag("--stats", stats,

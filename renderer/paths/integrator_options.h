@@ -21,12 +21,13 @@ struct IntegratorDescription {
 inline constexpr std::array integrators = {
     IntegratorDescription{
         IntegratorKind::automatic, "auto",
-        "path if the scene has lights or materials that need path tracing, else ambient"},
+        "path if a material or a light (image sky, sun sky) needs path tracing; otherwise ambient"},
     IntegratorDescription{IntegratorKind::path, "path", "path tracing of all light; unbiased"},
     IntegratorDescription{IntegratorKind::direct, "direct",
                           "direct light from lights and emissive objects"},
-    IntegratorDescription{IntegratorKind::ambient, "ambient",
-                          "direct light and diffuse bounces (--bounces), then ambient occlusion"},
+    IntegratorDescription{
+        IntegratorKind::ambient, "ambient",
+        "direct light and diffuse bounces (--bounces); after the last bounce, ambient occlusion"},
     IntegratorDescription{IntegratorKind::normals, "normals", "surface normals as colours"},
 };
 

@@ -201,10 +201,10 @@ TEST(ShapeJson, planes_that_cross_within_their_cylinder_are_refused) {
   good_shape(start + R"("heights": [-0.5, 0.5]})");
   EXPECT_EQ(complaint(start + R"("heights": [-0.5, 0.25]})"),
             "shape: /heights: must be rising, and so far apart that the planes do not cross within "
-            "the cylinder: by at least 1.0 (got [-0.5,0.25])");
+            "the cylinder: the difference must be at least 1.0 (got [-0.5,0.25])");
   EXPECT_EQ(complaint(start + R"("lower_slope": [0.5, 0], "heights": [1, 0.5]})"),
             "shape: /heights: must be rising, and so far apart that the planes do not cross within "
-            "the cylinder: by at least 0.0 (got [1,0.5])");
+            "the cylinder: the difference must be at least 0.0 (got [1,0.5])");
 }
 
 }  // namespace
