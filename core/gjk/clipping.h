@@ -15,6 +15,7 @@ namespace minkray {
 ///   2. n.r > 0: the part after lambda_clip; the entire ray if lambda_clip is below the lower
 ///   bound;
 ///   3. n.r = 0: nothing, or the entire ray if it runs in front of the plane.
+/// Here r is the ray's direction, and the ray crosses the plane at lambda_clip.
 enum class ClipCase : unsigned char { lower_bound = 1, upper_bound = 2, parallel = 3 };
 
 template <class T>
@@ -24,8 +25,8 @@ struct Clip {
   bool rejects;  ///< no part of the ray is left
 };
 
-/// The remaining part of a ray. Parameters are those of RayNearBall: lengths from the closest
-/// approach.
+/// The remaining part of a ray. Parameters are those of RayNearBall: lengths from the ray's point
+/// closest to the ball's centre.
 template <class T>
 class ClippedRay {
  public:

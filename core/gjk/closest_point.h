@@ -12,7 +12,7 @@
 
 namespace minkray {
 
-/// At most four vertices, in configuration space.
+/// At most four vertices y[0] to y[size - 1].
 template <class T>
 struct SimplexPoints {
   std::array<Vec3<T>, 4> y;
@@ -23,7 +23,7 @@ template <class T>
 struct ClosestPoint {
   Vec3<T> v = Vec3<T>::Zero();    ///< the simplex' point closest to the origin
   std::array<T, 4> weights = {};  ///< barycentric: v = sum of weights[i] * y[i]
-  unsigned kept = 0;              ///< bit i: v needs vertex i
+  unsigned kept = 0;              ///< bit i is set if v needs vertex i
 };
 
 namespace detail {

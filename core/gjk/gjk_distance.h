@@ -23,7 +23,7 @@ struct SupportPair {
 
 template <class T, int Dim>
 struct DistanceOptions {
-  /// Relative gap; see tolerance::distance_gap.
+  /// Difference of the bounds at which the search ends; for the unit see tolerance::distance_gap.
   T gap = tolerance::distance_gap<T>;
   int max_iterations = tolerance::distance_max_iterations;
   /// Initial direction from A to B, such as the previous frame's axis; zero for none.
@@ -34,8 +34,9 @@ struct DistanceOptions {
 };
 
 /// `supports(v)` returns SupportPair<T, Dim>, each point relative to its object's centre. x is the
-/// vector from A's centre to B's; `radius` bounds |a - b|. Points of the result are relative to A's
-/// centre.
+/// vector from A's centre to B's; `radius` is an upper bound of |a - b|
+/// for points a of A and b of B, each relative to its centre. Points of the result are relative to
+/// A's centre.
 template <class T, int Dim, class Supports, class G = ProjectionSubalgorithm<T, Dim>,
           class Observer = NoObserver>
 DistanceResult<T, Dim> gjk_distance(const Supports& supports, const Vec<T, Dim>& x, T radius,

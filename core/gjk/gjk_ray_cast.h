@@ -23,8 +23,9 @@ namespace minkray {
 
 template <class T>
 struct GjkCastOptions {
-  /// Relative to max|x - p|^2; see tolerance::gjk_squared. Must be at least the square of the
-  /// machine epsilon: below that the loop can only end by stalling.
+  /// Limit of |v|^2 at which the cast ends, relative to max|x - p|^2; see tolerance::gjk_squared.
+  /// Must be at least the square of the machine epsilon: below that the loop can only end by
+  /// stalling.
   T eps_tol = tolerance::gjk_squared<T>;
   int max_iterations = tolerance::gjk_max_iterations;
   /// Initial direction, such as the separating axis of the previous frame; zero for none.

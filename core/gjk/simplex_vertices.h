@@ -19,7 +19,7 @@ template <class T, int Dim>
 struct SubalgorithmAnswer {
   Vec<T, Dim> v = Vec<T, Dim>::Zero();  ///< the simplex' point closest to the origin
   std::array<T, Dim + 1> weights = {};  ///< by slot: v = sum of weights[i] * y[i]
-  unsigned kept = 0;                    ///< bit i: v needs the vertex in slot i
+  unsigned kept = 0;                    ///< bit i is set if v needs the vertex in slot i
   bool proper = true;                   ///< false: found by the backup procedure, due to rounding
 };
 
@@ -69,7 +69,7 @@ class SimplexVertices {
       if (uses(static_cast<int>(i))) y_[i] = x - p_[i];
   }
 
-  /// Requires a free slot.
+  /// Adds the vertex for the support point p and returns its slot. Requires a free slot.
   int insert(const Vec<T, Dim>& p) {
     int slot = 0;
     while (uses(slot)) ++slot;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Builds the result of a closed form for a pair of cores. Both bounds are then equal.
+// Builds the result of a query on a pair of cores from a closed form. Its lower and upper bound are
+// equal.
 #pragma once
 
 #include "core/math/length.h"

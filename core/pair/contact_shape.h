@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A shape prepared once for all queries on pairs, and the relative pose of two shapes. With
-// relative poses, solvers only handle numbers as large as the bodies' sizes and their distance.
+// relative poses, solvers handle only numbers up to about the bodies' sizes and their distance.
 #pragma once
 
 #include "core/derived/core_and_radius.h"
@@ -23,7 +23,7 @@ class ContactShape {
         offset_(length_of(core_and_radius_.middle)) {}
 
   const ShapeCore& core() const { return core_and_radius_.core; }
-  /// Rotation (or reflection) from the core's frame to the body's frame.
+  /// Rotation or reflection from the core's frame to the body's frame.
   const Mat3<double>& turn() const { return core_and_radius_.turn; }
   /// Origin of the core's frame in the body's frame: the centre of the core.
   const Vec3<double>& middle() const { return core_and_radius_.middle; }
@@ -72,18 +72,19 @@ inline Vec3<double> middle_in_world(const ContactShape& shape, const Affine<doub
   return pose(shape.middle());
 }
 
-/// `pose` must be rigid: its linear part is a rotation or a reflection, to rounding.
+/// Returns the core's pose in the world. `pose`, of the body, must be rigid: up to rounding, its
+/// linear part is a rotation or a reflection.
 PlacedCore placed(const ContactShape& shape, const Affine<double>& pose);
 
-/// Position of the middle in the world with twice the digits, and its error bound.
+/// Position of a core's middle in the world with twice the digits, and its error bound `loss`.
 struct PlacedMiddle {
   TwoFoldVec3<double> at;
   double loss = 0;
 };
 PlacedMiddle placed_middle(const ContactShape& shape, const Affine<double>& pose);
 
-/// Vector from one middle to the other in world axes. `loss` bounds the error due to rounding of
-/// the middles' positions, but not the rounding of the vector itself.
+/// Vector between the middles of two bodies in world axes. `loss` bounds the error due to rounding
+/// of the middles' positions, but not the rounding of the vector itself.
 struct Between {
   Vec3<double> x;
   double loss = 0;

@@ -24,9 +24,11 @@ struct CorePair {
 
   /// Sum of the radii of the cores' bounding balls. Rounding errors are relative to this sum.
   double size() const { return a.ball + b.ball; }
+  /// Sum of the radii by which the cores are grown.
   double radii() const { return a.radius + b.radius; }
   /// Error bound of a gap between the shapes (cores grown by their radii).
   double rounding() const { return core_rounding * (size() + radii() + x.norm()) + loss; }
+  /// Converts a direction from A's frame to B's frame.
   Vec3<double> to_b(const Vec3<double>& d) const { return turn.transpose() * d; }
 };
 
@@ -62,8 +64,8 @@ enum class CoreStatus : unsigned char {
 struct CoreDistance {
   CoreStatus status = CoreStatus::unsettled;
   double lower = -std::numeric_limits<double>::infinity();  ///< minimum of axis.c over C
-  double upper = std::numeric_limits<double>::infinity();   ///< length |c| of some point c of C
-  Vec3<double> axis = Vec3<double>::Zero();                 ///< of unit length, from A to B
+  double upper = std::numeric_limits<double>::infinity();   ///< length of the vector `c` below
+  Vec3<double> axis = Vec3<double>::Zero();                 ///< unit vector from A to B
   Vec3<double> a = Vec3<double>::Zero();                    ///< nearest point of A, in A's frame
   Vec3<double> c = Vec3<double>::Zero();  ///< vector from a to the nearest point of B
   int supports = 0;                       ///< number of support points of C computed
@@ -95,10 +97,10 @@ inline constexpr double leaning = 1e-4;
 
 /// Criteria for the end of a search.
 struct CoreSearch {
-  double gap = 1e-12;  ///< upper - lower, relative to the size
+  double gap = 1e-12;  ///< ends if upper - lower is at most this, relative to the size
   /// The search also ends once the distance is proven to be above `apart`.
   double apart = std::numeric_limits<double>::infinity();
-  int max_turns = 200;
+  int max_turns = 200;    ///< maximum number of iterations
   bool may_slide = true;  ///< allows second-order steps on curved surfaces (sliding_features.h)
   /// If not null, the search starts from this state if there is one, and stores its final state
   /// there.

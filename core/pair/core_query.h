@@ -14,7 +14,7 @@ template <CoreKind A, CoreKind B>
 struct CoreQuery {
   const CorePair& pair;
   const CoreSearch& search;
-  double size = pair.size();
+  double size = pair.size();       ///< to which tolerances are relative
   double gap = search.gap * size;  ///< the search ends if the bounds differ by at most this
   CoreDistance result = {};
 

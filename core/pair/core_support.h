@@ -10,6 +10,7 @@
 
 namespace minkray {
 
+/// A support point, and the number of the feature that it lies on.
 struct CoreSupport {
   Vec3<double> point;
   int feature;

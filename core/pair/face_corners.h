@@ -38,8 +38,8 @@ inline void sort_round(std::vector<PlaneCorner>& corners) {
   std::ranges::sort(corners, {}, &PlaneCorner::angle);
 }
 
-/// Largest distance due to rounding of a face's corners from the face's plane, relative to the
-/// size.
+/// Largest distance of a face's corners from the face's plane that rounding can cause, relative to
+/// the size.
 inline constexpr double flat_face = 1e-12;
 
 }  // namespace minkray

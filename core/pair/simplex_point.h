@@ -12,10 +12,10 @@ namespace minkray {
 
 /// The closest point found so far.
 struct SimplexPoint {
-  Vec3<double> v = Vec3<double>::Zero();
-  double squared = std::numeric_limits<double>::infinity();
+  Vec3<double> v = Vec3<double>::Zero();                     ///< the point
+  double squared = std::numeric_limits<double>::infinity();  ///< |v|^2
   double weight[4] = {0, 0, 0, 0};
-  unsigned kept = 0;  ///< one bit per vertex with a nonzero weight
+  unsigned kept = 0;  ///< bit i is set if weight[i] is not 0
 
   void take(const Vec3<double>& point, unsigned vertices) {
     v = point;
@@ -37,8 +37,8 @@ inline void try_edge(const Vec3<double>* y, int a, int b, SimplexPoint& best) {
   best.weight[a] = 1 - u;
 }
 
-/// Updates the closest point by a triangle's interior and edges. `newest_only`: skips edges that do
-/// not contain c, the newest vertex.
+/// Updates the closest point by the interior and the edges of the triangle with the vertices y[a],
+/// y[b] and y[c]. If `newest_only`, skips edges without y[c], the newest vertex.
 [[gnu::noinline]] inline void try_triangle(const Vec3<double>* y, int a, int b, int c,
                                            bool newest_only, SimplexPoint& best) {
   const Vec3<double> n = (y[b] - y[a]).cross(y[c] - y[a]);
@@ -60,8 +60,8 @@ inline void try_edge(const Vec3<double>* y, int a, int b, SimplexPoint& best) {
   if (!newest_only && !(wc > 0)) try_edge(y, a, b, best);
 }
 
-/// Returns the closest point of the simplex y[0] to y[n - 1], with n from 1 to 4. `newest_only`:
-/// skips faces that do not contain y[n - 1]. If rounding rules out every face, `kept` is 0.
+/// Returns the closest point of the simplex y[0] to y[n - 1], with n from 1 to 4. If
+/// `newest_only`, skips faces without y[n - 1]. If rounding rules out every face, `kept` is 0.
 [[gnu::noinline]] inline SimplexPoint closest_of_simplex(const Vec3<double>* y, int n,
                                                          bool newest_only) {
   SimplexPoint best;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Bounds the error of a normal found at a point of a core's surface: the difference from the core's
-// exact normal at this point, plus the turn of the exact normal nearby, which the curvature bounds.
+// Bounds the error of a normal that was computed at a point of a core's surface. The bound is the
+// difference from the core's exact normal at this point, plus the turn of the exact normal nearby,
+// which follows from the curvature.
 #pragma once
 
 #include "core/pair/core_support.h"

@@ -26,7 +26,7 @@ struct PairDerivative {
   bool is_ridge = false;
 };
 
-/// Options for queries whose results are used for derivatives.
+/// Returns the options, changed for queries whose results are used for derivatives.
 inline SignedDistanceOptions for_derivatives(SignedDistanceOptions options = {}) {
   constexpr double coarsest = 1e-10;
   options.tolerance = std::min(options.tolerance, coarsest);
@@ -34,9 +34,10 @@ inline SignedDistanceOptions for_derivatives(SignedDistanceOptions options = {})
   return options;
 }
 
-/// `found` must be the pair's result, computed with for_derivatives(), and have both bounds;
-/// otherwise the derivative is NaN and marked as a ridge. Writes `error` if not null. The error
-/// bound holds for all poses within `drift`.
+/// Returns the derivative of the signed distance. `found` must be the pair's distance, computed
+/// with for_derivatives(), and have both bounds; otherwise the derivative is NaN and marked as a
+/// ridge. Writes an error bound to `error` if this is not null. The error bound holds for all poses
+/// within `drift` of the given ones.
 PairDerivative derivative_of(const ContactShape& a, const Affine<double>& pose_a,
                              const ContactShape& b, const Affine<double>& pose_b,
                              const SignedDistance& found, PairDerivativeError* error = nullptr,
@@ -47,15 +48,15 @@ PairDerivative finest_derivative_of(const ContactShape& a, const Affine<double>&
                                     const ContactShape& b, const Affine<double>& pose_b,
                                     PairDerivativeError* error = nullptr);
 
-/// A is a half-space whose body has its origin at `origin`. B and `found` are the shape and the
-/// result of distance_to_half_space().
+/// Same for A a half-space, whose body has its origin at `origin`. `found` must be the result of
+/// distance_to_half_space() for the shape B.
 PairDerivative derivative_at_half_space(const Vec3<double>& origin, const ContactShape& b,
                                         const Affine<double>& pose_b, const SignedDistance& found,
                                         PairDerivativeError* error = nullptr,
                                         const Drift& drift = {});
 
-/// Derivative of t_lo with respect to a twist of each body at time 0. Zero if the bodies overlap at
-/// time 0; NaN without contact.
+/// Returns the derivative of the time of impact, t_lo of `found`, with respect to a small motion
+/// (twist) of each body at time 0. Zero if the bodies overlap at time 0; NaN without contact.
 PairDerivative derivative_of(const ContactShape& a, const RigidMotion& motion_a,
                              const ContactShape& b, const RigidMotion& motion_b,
                              const Impact& found);

@@ -21,22 +21,22 @@ struct PairDerivativeError {
   TwistError a, b;
 };
 
-/// Bounds of the motion since the contact: the displacement of any point of the bodies, and their
-/// rotation.
+/// Bounds of the bodies' motion after the time of the given result: the displacement of any of
+/// their points, and their rotation in radians.
 struct Drift {
   double way = 0, turn = 0;
 };
 
-/// The derivative was computed from `contact`. `depth_tilt` bounds the error of a depth's direction
-/// (infinite if unknown). `origin_a` and `origin_b` are the bodies' origins relative to A's middle.
-/// The bound holds for all poses within `drift`.
+/// Bounds the error of a derivative that was computed from `contact`. `depth_tilt` bounds the error
+/// of a depth's direction (infinite if unknown). `origin_a` and `origin_b` are the bodies' origins
+/// relative to A's middle. The bound holds for all poses within `drift`.
 PairDerivativeError error_of(const CoresInWorld& cores, const CoreContact& contact,
                              const SignedDistance& found, double depth_tilt,
                              const Vec3<double>& origin_a, const Vec3<double>& origin_b,
                              const Drift& drift = {});
 
-/// A is a half-space, and the error of its normal is at most `tilt`. `down` is the opposite of the
-/// normal, in the frame of B's core. The bodies' origins are in the same frame as the points of
+/// Same for A a half-space, if the error of its normal is at most `tilt`. `down` is the opposite of
+/// the normal, in the frame of B's core. The bodies' origins are in the same frame as the points of
 /// `found`.
 PairDerivativeError error_at_half_space(const ShapeCore& core_b, const Vec3<double>& down,
                                         double tilt, const SignedDistance& found,

@@ -25,13 +25,14 @@ struct CoresInWorld {
 
   Vec3<double> support_a(const Vec3<double>& n) const;
   Vec3<double> support_b(
-      const Vec3<double>& n) const;  ///< furthest point along n, relative to A's middle
+      const Vec3<double>& n) const;  ///< B's furthest point along n, relative to A's middle
   double size() const { return a.ball + b.ball; }
   /// Error of support points.
   double rounding() const { return core_rounding * (size() + between.x.norm()) + between.loss; }
 };
 
-/// `c` is the vector from a point of A to a point of B.
+/// Nearest points of two cores: the point a of A, the vector c from a to the point of B, and the
+/// unit normal from A to B.
 struct CoreContact {
   Vec3<double> normal, a, c;
 };

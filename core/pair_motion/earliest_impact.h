@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Merges the times of impact of one body with many others into the earliest one.
+// Merges the first contacts of one body with each of many others into the earliest contact.
 #pragma once
 
 #include "core/pair_motion/impact.h"
@@ -7,15 +7,15 @@
 namespace minkray {
 
 struct EarliestImpact {
-  /// `t_lo` is before the contacts with all bodies. All other members are the result for a single
-  /// body: the body touched first or, if there is no contact, a body whose result is undecided or a
-  /// miss.
+  /// `t_lo` is a lower bound for all bodies: there is no contact with any of them before t_lo. All
+  /// other members are the result for a single body: the body touched first or, if there is no
+  /// contact, a body whose result is undecided or a miss.
   Impact impact;
-  std::size_t body = none;
+  std::size_t body = none;  ///< number of that body; none if all results are misses
   static constexpr std::size_t none = ~std::size_t{0};
 };
 
-/// Returns the result for no contact up to t_max.
+/// Returns the initial value for take(): no contact up to t_max.
 inline EarliestImpact nothing_met(double t_max) {
   EarliestImpact found;
   found.impact.status = ImpactStatus::miss;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Time of impact of curved cores to second order, by sequential quadratic programming. Let u be the
-// direction of motion. The supporting plane with the normal n, scaled so that n.u = -1, gives a
-// lower bound of the time. This bound is the minimum of one function of n per feature
-// (sliding_features.h). The bound is concave in n, and its maximum is the time of impact.
+// Finds the time of impact of curved cores with quadratic convergence, by sequential quadratic
+// programming. Let u be the direction of motion. A supporting plane of C (swept_query.h) with the
+// normal n, scaled so that n.u = -1, gives a lower bound of the time. The bound is the minimum of
+// one function of n per feature (sliding_features.h). It is concave in n; its maximum is the time
+// of impact.
 #pragma once
 
 #include "core/pair_motion/swept_query.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // First contact of a box that moves without turning and a box at rest. C = B - A (core_pair.h) is
-// the intersection of 15 slabs, each between two parallel planes (S. Gottschalk et al., "OBBTree",
+// the intersection of 15 slabs, which lie between parallel planes (S. Gottschalk et al., "OBBTree",
 // 1996); a ray is in C while it is in all slabs.
 #pragma once
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// First contact of a core that moves without turning and a core at rest: a ray cast at C by portals
-// (G. Snethen, "XenoCollide", in Game Programming Gems 7, 2008). GJK on C projected along the
-// motion finds a portal (three points around the origin) or proves a miss. Support points move the
-// portal outwards; the portal and the support plane bound the time. Exact for polytopes; on curved
-// surfaces sliding_portal.h takes over after a few iterations.
+// First contact of a core that moves without turning and a core at rest: a ray cast at C = B - A by
+// portals (G. Snethen, "XenoCollide", in Game Programming Gems 7, 2008). GJK on C projected along
+// the motion finds a portal (three points around the origin) or proves a miss. Support points move
+// the portal outwards; the portal and the supporting plane bound the time. Exact for polytopes; on
+// curved surfaces sliding_portal.h takes over after a few iterations.
 #pragma once
 
 #include "core/pair_motion/sliding_portal.h"

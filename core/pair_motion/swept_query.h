@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// State of a search for a time of impact: two cores, B moving without turning, and the bounds
-// proven so far. C = B - A (core_pair.h) is grown by both radii here.
+// State of a search for a time of impact: cores A at rest and B, which moves without turning, and
+// the bounds proven so far. C is the set of all b - a with a in A and b in B (core_pair.h); here it
+// is grown by both radii.
 #pragma once
 
 #include <algorithm>
@@ -19,14 +20,15 @@ enum class SweptStatus : unsigned char {
 struct SweptTime {
   SweptStatus status = SweptStatus::open;
   double t_lo = -std::numeric_limits<double>::infinity();  ///< no contact before t_lo
-  double t_hi = std::numeric_limits<double>::infinity();   ///< at t_hi the cores touch or overlap
-  Vec3<double> axis = Vec3<double>::Zero();                ///< unit normal of the separating plane
-  Vec3<double> a = Vec3<double>::Zero();  ///< a point of A that is also a point of B at t_hi
+  /// A time at which the cores touch or overlap; infinite if none was found.
+  double t_hi = std::numeric_limits<double>::infinity();
+  Vec3<double> axis = Vec3<double>::Zero();  ///< normal of the plane that proves t_lo or the miss
+  Vec3<double> a = Vec3<double>::Zero();     ///< a point of A that is also a point of B at t_hi
   int supports = 0;
 };
 
-/// A point y = b - a of C: its projection p e0 + q e1 along the motion, and its height h along the
-/// motion.
+/// A point y = b - a of C: its projection along the motion, p e0 + q e1 with the axes e0 and e1 of
+/// SweptQuery, its height h along the motion, and the features of A and B that it is from.
 struct SweptPoint {
   Vec3<double> y, a;
   double p, q, h;
@@ -40,8 +42,9 @@ inline double cross(const SweptPoint& a, const SweptPoint& b) {
 template <CoreKind A, CoreKind B>
 struct SweptQuery {
   const CorePair& pair;
-  Vec3<double> velocity;
-  double t_max, near;
+  Vec3<double> velocity;  ///< of B, in A's frame
+  double t_max;           ///< latest time of interest
+  double near;            ///< B moves at most this far between the two bounds of a hit
   double radius = pair.a.radius + pair.b.radius;
   double size = pair.size() + radius;
   double speed = velocity.norm();
@@ -53,14 +56,17 @@ struct SweptQuery {
   SweptQuery(const CorePair& of, const Vec3<double>& v, double most, double nearness)
       : pair(of), velocity(v), t_max(most), near(nearness) {}
 
+  /// Makes a point from y = b - a and a.
   SweptPoint in_shadow(const Vec3<double>& y, const Vec3<double>& a, int of_a, int of_b) const {
     return {y, a, e0.dot(y), e1.dot(y), along.dot(y), of_a, of_b};
   }
+  /// Returns the point of C with the least y.d.
   SweptPoint support(const Vec3<double>& d) {
     ++result.supports;
     const DifferencePoint w = nearest_along<A, B>(pair, d);
     return grown(w.c, w.a, d, w.feature_a, w.feature_b);
   }
+  /// Moves a point of the cores' difference to the surface of C, by both radii against d.
   SweptPoint grown(const Vec3<double>& c, const Vec3<double>& a, const Vec3<double>& d, int of_a,
                    int of_b) const {
     if (!(radius > 0)) return in_shadow(c, a, of_a, of_b);

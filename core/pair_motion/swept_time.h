@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// First contact of a core that moves without turning and a core at rest, compiled for the most
-// common kinds.
+// First contact of a core that moves without turning and a core at rest. Selects the method; code
+// is compiled separately for the most common kinds of cores.
 #pragma once
 
 #include "core/pair_motion/swept_query.h"

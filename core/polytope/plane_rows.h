@@ -30,18 +30,18 @@ class PlaneRows {
   std::size_t size_ = 0;
 };
 
-/// The plane that a line enters last, and the plane that it leaves first; the first of several
-/// planes with equal parameters.
+/// The plane whose half-space a line enters last, and the plane whose half-space it leaves first.
+/// Of several planes with equal parameters, the first.
 struct PlaneScan {
-  double in = 0, out = 0;
-  /// The latest entry, and the earliest exit, if all planes are moved inwards by their depths and
+  double in = 0, out = 0;  ///< the line's parameters there
+  /// Latest entry and earliest exit if all planes are moved inwards by their depths and the line's
   /// E.
   double in_hi = 0, out_lo = 0;
-  std::size_t entered = 0, left = 0;
+  std::size_t entered = 0, left = 0;  ///< indices of the two planes
 };
 
 void scan_planes_sse2(const PlaneRows& planes, const Line<double>& line, PlaneScan& found);
-/// Same, bit for bit; requires AVX2 and FMA (but does not use FMA).
+/// Same results, bit for bit. Requires AVX2 and FMA, but does not use FMA.
 void scan_planes_avx2(const PlaneRows& planes, const Line<double>& line, PlaneScan& found);
 
 }  // namespace minkray::exact

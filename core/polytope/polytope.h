@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters the convex hull of points: by a walk over the triangles to the one that
-// the line passes through. If the walk is undecided or the hull has few facets, tests all planes
-// instead. Each plane has a bound on the depth of its triangles' points below the plane. The proof
-// therefore holds for planes from any source (docs/forms.md, "Polytopes with an error bound").
+// Finds where a line enters the convex hull of points, by a walk over the hull's triangles to the
+// one that the line passes through. If the walk is undecided or the hull has few facets, tests the
+// planes of all facets instead. Each plane has a bound on the depth of its triangles' points below
+// the plane. The error bound therefore holds for planes from any source (docs/forms.md, "Polytopes
+// with an error bound").
 #pragma once
 
 #include <memory>
@@ -13,18 +14,19 @@
 
 namespace minkray::exact {
 
-/// Immutable. Positions are relative to the given middle.
+/// A hull prepared for entries of lines, optionally grown by a radius (rounded). Immutable.
+/// Positions are relative to the given middle.
 class Polytope {
  public:
-  /// Null if there are no facets or too many points, or if the hull is flat or not thicker than the
-  /// depths of its planes. If rounded_by > 0, also null if the hull is not convex, or if its
-  /// triangles are so low that rounding confuses adjacent features. Multiplies points by `down`
-  /// first.
+  /// Prepares the hull of `points`, multiplied by `down` and grown by `rounded_by`. Returns null if
+  /// there are no facets or too many points, or if the hull is flat or not thicker than the depths
+  /// of its planes. If rounded_by > 0, also returns null if the hull is not convex, or if the
+  /// heights of its triangles are so small that rounding confuses adjacent features.
   static std::shared_ptr<const Polytope> of(const PointCloud& points, const Vec3<double>& middle,
                                             double down, double rounded_by = 0);
 
-  /// A triangle with two sides, grown by a radius; corners are relative to the middle. Null if the
-  /// radius is 0 or the triangle is too low.
+  /// Prepares a triangle with two sides, grown by a radius; corners are relative to the middle.
+  /// Returns null if the radius is 0 or the triangle's height is too small.
   static std::shared_ptr<const Polytope> of(const std::array<Vec3<double>, 3>& corners,
                                             double rounded_by);
 
@@ -47,7 +49,8 @@ class Polytope {
   double rounding_ = 0;
 };
 
-/// The lines must meet the ball, and their E must include the rounding.
+/// Finds where lines enter the polytope with these tables, in the `open` lanes. The lines must meet
+/// the polytope's ball, and their E must include its rounding().
 template <class W>
 Entry<W> enter_tables(const PolytopeTables& polytope, const Line<W>& line, const Mask<W>& open);
 

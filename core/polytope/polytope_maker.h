@@ -17,7 +17,7 @@ class Polytope::Maker {
   Maker(Polytope& made, std::vector<Vec3<double>> vertices)
       : made_(made), vertices_(std::move(vertices)) {}
 
-  /// Stores the mesh's triangles. False if the links between neighbours are not mutual.
+  /// Stores the mesh's triangles. Returns false if the links between neighbours are not mutual.
   template <class T>
   bool take_triangles(const FacetMesh& mesh, const std::vector<Vec3<T>>& points) {
     std::vector<std::uint32_t> order(points.size());
@@ -71,8 +71,8 @@ class Polytope::Maker {
     for (const std::size_t f : order) choose_plane(f);
   }
 
-  /// Finds the points' mean. True if the mean lies below all planes moved inwards by their depths,
-  /// as the proof requires.
+  /// Finds the points' mean. Returns true if the mean lies below all planes moved inwards by their
+  /// depths, as the proof of the error bound requires.
   bool find_inside() {
     Vec3<Long> mean = Vec3<Long>::Zero();
     for (const Vec3<double>& p : vertices_) mean += p.cast<Long>();
@@ -127,7 +127,7 @@ class Polytope::Maker {
   }
 
   /// Adds the radius, and the rounding that makes adjacent features ambiguous (docs/forms.md).
-  /// False if the polytope is not convex or has triangles that are too low.
+  /// Returns false if the polytope is not convex or has triangles whose height is too small.
   bool make_room_for_rounding() {
     Long least = made_.radius_;
     for (const Triangle& triangle : triangles_) {

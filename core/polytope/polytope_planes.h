@@ -28,8 +28,8 @@ struct PlaneRow {
   }
 };
 
-/// Sets the hit at the plane that the line enters last, unless the plane is too steep: the cosine
-/// of the angle between line and normal must be above `steepest`.
+/// Sets the hit at the plane that the line enters last, unless the plane is nearly parallel to the
+/// line: the cosine of the angle between line and normal must be above `steepest`.
 template <class W>
 void settle_hit(const PolytopeTables& of, const W& plane, const Line<W>& line, const Mask<W>& open,
                 Lane<W> steepest, Entry<W>& entry) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Finds where a line enters a polytope that is grown by a radius: at a face moved outwards, the
-// cylinder around an edge or the ball around a vertex. A feature supports if, at the feature's
-// contact, no neighbour rises above it. Walks from feature to feature (Lin and Canny, "A Fast
-// Algorithm for Incremental Distance Calculation", 1991) to the one that supports. One line and
-// packets share this code.
+// cylinder around an edge or the ball around a vertex. The line's contact with such a feature is
+// the entry if no neighbouring feature rises above the contact; the feature then "supports". Walks
+// from feature to feature (Lin and Canny, "A Fast Algorithm for Incremental Distance Calculation",
+// 1991) to the one that supports. One line and packets share this code.
 #pragma once
 
 #include "core/polytope/polytope_walk.h"
@@ -38,7 +38,7 @@ class RoundedWalk {
     return entry_;
   }
 
-  /// Tests one feature only; false if the test leads to another feature.
+  /// Tests one feature only; returns false if the test leads to another feature.
   bool settles_at(double which, double edge) requires(std::is_same_v<W, double>) {
     entry_ = {};
     feature_ = which;
@@ -57,7 +57,7 @@ class RoundedWalk {
   };
   using Numbers = std::array<W, 12>;
 
-  /// Tests each lane's feature; false if no test leads to another feature.
+  /// Tests each lane's feature; returns false if no test leads to another feature.
   bool look() {
     const Mask<W> at_faces = feature_ == W(feature::face);
     if (any(at_faces)) look_at_face(at_faces);

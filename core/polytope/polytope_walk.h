@@ -11,9 +11,9 @@
 
 namespace minkray::exact {
 
-/// End of a walk. `in_triangle`: the walk ended in a triangle that the line passes through; with
-/// `is_clear`, by more than rounding. `past_edge`: the walk ended at an edge of the outline, and
-/// the line misses. If neither is set, the walk failed.
+/// End of a walk. `in_triangle`: the walk ended in a triangle that the line passes through; if
+/// `is_clear` is set, the line passes its edges at more than the rounding. `past_edge`: the walk
+/// ended at an edge of the outline, and the line misses. If neither is set, the walk failed.
 template <class W>
 struct WalkEnd {
   Mask<W> in_triangle = Mask<W>(false), is_clear = Mask<W>(false), past_edge = Mask<W>(false);
@@ -57,7 +57,7 @@ W facing_edge(const PolytopeTables& of, const Line<W>& line) {
                 [&](std::size_t cell) { return static_cast<double>(of.facing[cell]); });
 }
 
-/// Walks from a near start are short; longer walks have failed due to rounding.
+/// Limit of steps. Walks from a near start are short; longer walks have failed due to rounding.
 inline constexpr int most_steps = 64;
 
 /// Projected along the line, the triangles that face the line's origin form a triangulation. The

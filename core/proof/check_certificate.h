@@ -21,15 +21,17 @@ struct CertificateVerdict {
   std::string_view complaint;  ///< the first condition that fails; empty if all hold
 
   /// Hit: t lies in t_base + [offset_lo, offset_hi]. The interval includes the rounding of planes
-  /// and of the spanned point. This rounding is perpendicular to the plane, and larger along the
-  /// ray.
+  /// and of the spanned point (the convex combination of the certificate's support points).
+  /// Rounding moves a plane along its normal; along the ray the plane moves further.
   double t_base = 0, offset_lo = 0, offset_hi = 0;
-  double offset_planes = 0;   ///< hit: where the ray crosses the last plane
-  double offset_spanned = 0;  ///< hit: at the spanned point; rounding may put it before the planes
+  double offset_planes = 0;  ///< hit: offset of t where the ray crosses the last plane
+  double offset_spanned =
+      0;  ///< hit: offset of t at the spanned point; rounding can make it less than offset_planes
   double gap = 0;      ///< hit: depth of the spanned point below the plane, (t_hi - t_lo) * cosine
   double lateral = 0;  ///< distance of the spanned point from the ray (hit) or origin (inside)
   double margin = 0;   ///< miss: distance from the plane to the ray; negative if they cross
-  /// Hit: distance of the claimed point from the claimed plane, or height above the proven plane.
+  /// Hit: distance of the claimed point from the plane with the claimed normal, or its height above
+  /// the certificate's plane if that is larger.
   double claim_error = 0;
   double late = 0;     ///< hit: distance along the ray of the claimed t beyond the proven t_hi
   double allowed = 0;  ///< limit of gap, lateral, -margin and claim_error

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Finds the proof of a result, with the GJK ray cast and the GJK distance of van den Bergen (2004).
-// Both end with a point that is spanned by support points. Points are relative to the shape's
-// middle.
+// Finds the proof of a result (certificate.h), with the GJK ray cast and the GJK distance of van
+// den Bergen (2004). Both end with a convex combination of support points, the "spanned" point.
+// Points are relative to NearSegment::centre.
 #pragma once
 
 #include <cmath>
@@ -14,14 +14,14 @@
 
 namespace minkray::proof {
 
-/// Limit of support points. Touching ellipsoids of 1:1000 took 160.
+/// Limit of support points per search. Touching ellipsoids of 1:1000 took 160.
 inline constexpr int most_supports = 400;
 
 /// Angles of tilted directions. The first is the square root of the machine epsilon. The larger
 /// angles are for less certain normals, and for hit points further from a corner.
 inline constexpr std::array tilts = {0x1p-26, 0x1p-24, 0x1p-21, 0x1p-14};
-inline constexpr int tilt_directions = 6;
-inline constexpr int refinements = 24;
+inline constexpr int tilt_directions = 6;  ///< number of directions around n to tilt towards
+inline constexpr int refinements = 24;     ///< maximum number of rounds of refine()
 
 /// Number of steps of the secant method, which near the solution converges like Newton's method.
 inline constexpr int secant_steps = 16;
@@ -46,9 +46,9 @@ class Finder {
     return support_(n) - near_.centre;
   }
 
-  /// Casts the ray from lambda on. Finds the ray's first point in the shape, the point nearest to
-  /// it that support points span, and the last plane that clipped the ray. Returns the distance
-  /// between the two points; infinite for a miss.
+  /// Casts the ray, starting at lambda. Finds the ray's first point in the shape, the spanned point
+  /// nearest to this point, and the last plane that clipped the ray. Sets lambda to the first
+  /// point. Returns the distance between the two points; infinite for a miss.
   double enter(Vec3<double> n, double& lambda) {
     Vec3<double> x = near_.at(lambda);
     SpannedPoint spanned(x.cast<Long>());
@@ -77,9 +77,9 @@ class Finder {
     return spanned.off();
   }
 
-  /// Finds the nearest points of the shape and of the ray's part from a to b. Support points span
-  /// the shape's point. Returns the distance of the two points; `separating` is the normal of a
-  /// plane between them.
+  /// Finds the nearest points of the shape and of the ray's part from lambda = a to lambda = b. The
+  /// shape's point is a spanned point. Returns the distance of the two points; `separating` is the
+  /// normal of a plane between them.
   double nearest(double a, double b, Vec3<double> n, Vec3<double>& separating) {
     SpannedPoint spanned(Vec3<Long>::Zero());
     double widest = -std::numeric_limits<double>::infinity();
@@ -101,12 +101,12 @@ class Finder {
     return spanned.off();
   }
 
-  /// Finds a point of the shape near x(lambda), where the normal is about n. Tries triangles of
-  /// support points in directions tilted slightly from n. On a face with rounded edges, or a patch
-  /// with radius of curvature rho, tilts by delta give points at a distance rho * delta around the
-  /// hit point, and only rho * delta^2 below it. Returns the distance of the best point from
-  /// x(lambda). Uses long double: a point between a sliver's corners loses digits in proportion to
-  /// the sliver's thinness.
+  /// Finds a spanned point near x(lambda), the ray's point at lambda, where the normal is about n.
+  /// Tries triangles of support points in directions tilted slightly from n. On a face with rounded
+  /// edges, or a patch with radius of curvature rho, tilts by delta give points at a distance rho *
+  /// delta around the hit point, and only rho * delta^2 below it. Returns the distance of the best
+  /// point from x(lambda). Uses long double: a point between a sliver's corners loses digits in
+  /// proportion to the sliver's thinness.
   double refine(double lambda, const Vec3<double>& n) {
     const Vec3<Long> x = near_.s.cast<Long>() + Long(lambda) * near_.r.cast<Long>();
     std::vector<Seen> seen;

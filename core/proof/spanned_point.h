@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A point that support points span: a simplex of the GJK algorithms, in long double. Also stores
-// the directions in which the corners were found.
+// The convex combination of up to four support points that is nearest to a point x: a simplex of
+// the GJK algorithms, in long double. Also stores the directions in which the support points were
+// found.
 #pragma once
 
 #include <algorithm>
@@ -17,6 +18,7 @@ class SpannedPoint {
  public:
   explicit SpannedPoint(const Vec3<long double>& x) { simplex_.begin(x); }
 
+  /// Replaces x.
   void move(const Vec3<long double>& x) {
     simplex_.move(x);
     squared_ = std::numeric_limits<long double>::infinity();
@@ -40,8 +42,9 @@ class SpannedPoint {
   /// Vector from the spanned point to x.
   const Vec3<long double>& v() const { return closest_.v; }
 
-  /// Distance of x from the point that the weights span: |v|. For a tetrahedron that contains x, v
-  /// is zero, and the distance is the rounding error of the volumes.
+  /// Distance of x from the combination of the corners with the computed weights. Usually |v|. For
+  /// a tetrahedron that contains x, v is zero, and the distance is the rounding error of the
+  /// weights.
   double off() const {
     Vec3<long double> sum = Vec3<long double>::Zero();
     long double weights = 0;

@@ -10,9 +10,9 @@
 
 namespace minkray {
 
-/// A ray's line relative to the middle of a shape's bounds, in the shape's frame. Origin and
-/// direction are sums; `origin_size` and `direction_size` are the sums of the summands' absolute
-/// values, to which rounding is relative.
+/// A ray's line relative to the centre of a shape's bounds, in the shape's frame. Origin and
+/// direction were computed as sums; `origin_size` and `direction_size` are the sums of the
+/// summands' absolute values. The rounding errors are relative to these.
 template <class W>
 struct LineFromCentre {
   Vec3<W> origin, direction;
@@ -64,9 +64,9 @@ template <class W>
   return result;
 }
 
-/// Casts the open lanes of `bounds` at the bounding ball; the ray must be relative to the ball's
-/// centre. A ray misses if it passes by the ball, ends before the ball or begins behind it. If the
-/// ray has no direction, or the shape no size, the lane is closed without a miss.
+/// Casts the open lanes of `bounds` at the bounding ball of radius R; the ray must be relative to
+/// the ball's centre. A ray misses if it passes by the ball, ends before the ball or begins behind
+/// it. If the ray has no direction, or the shape no size, the lane is closed without a miss.
 template <class W>
 void cast_at_ball(const RayNearBall<W>& near, Lane<W> R, BoundsCast<W>& bounds) {
   using std::max;

@@ -75,9 +75,9 @@ NearSegment near_segment(const Support& support, const Ray<double>& ray) {
   near.t_shift = parameter();
   move(near.t_shift);
   near.s = (s - centre).cast<double>();
-  // The first step rounds in proportion to the distance that it moves. If that distance is more
-  // than `most` times the size of the shape's coordinates, this rounding in long double is coarser
-  // than the rounding of these coordinates in double.
+  // The second step moves s by the distance that remains after the first step. If that distance is
+  // more than `most` times the size of the coordinates near the shape, long double rounds the step
+  // as coarsely as double rounds those coordinates.
   const double most = std::numeric_limits<double>::epsilon() / std::numeric_limits<Long>::epsilon();
   near.is_too_far = !(step <= most * (near.size + near.s.norm()));
   const double pad = 8 * std::numeric_limits<double>::epsilon() * near.size;

@@ -12,11 +12,11 @@ namespace minkray {
 /// the shape's ball.
 template <class T>
 struct CastIteration {
-  T lambda;                          ///< lower bound of the hit: a length from the closest approach
-  Vec3<T> x;                         ///< point of the ray at lambda
-  Vec3<T> v;                         ///< the direction of the support call
-  Vec3<T> p;                         ///< the support point
-  Vec3<T> w;                         ///< x - p
+  T lambda;   ///< lower bound of the hit; 0 at the ray's point closest to the centre
+  Vec3<T> x;  ///< point of the ray at lambda
+  Vec3<T> v;  ///< the direction of the support call
+  Vec3<T> p;  ///< the support point
+  Vec3<T> w;  ///< x - p
   std::span<const Vec3<T>> simplex;  ///< the support points kept after the iteration
 };
 

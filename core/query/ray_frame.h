@@ -21,11 +21,14 @@ struct RayFrame {
     x = {W(1) + sign * z.x() * z.x() * a, sign * b, -sign * z.x()};
     y = {b, sign + z.y() * z.y() * a, -z.y()};
   }
+  /// Converts a vector to this frame.
   Vec3<W> into(const Vec3<W>& v) const { return {x.dot(v), y.dot(v), z.dot(v)}; }
+  /// Converts a vector from this frame.
   Vec3<W> out_of(const Vec3<W>& v) const { return x * v.x() + y * v.y() + z * v.z(); }
 };
 
-/// Cross product of the projections along the ray.
+/// Cross product of the projections of two vectors along the ray. The vectors are in a RayFrame, as
+/// are all points below; the ray runs through the origin.
 template <class W>
 W cross_2d(const Vec3<W>& a, const Vec3<W>& b) {
   return a.x() * b.y() - a.y() * b.x();

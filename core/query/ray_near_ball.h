@@ -22,11 +22,12 @@ struct RayNearBall {
   W lambda_max;  ///< position of the ray's end
   W t_base;      ///< the ray's own parameter at s is t_base + t_shift
   W t_shift;
-  W t_per_length;
-  /// Bounds the error of the ray's points near the shape that is due to the uncertainty of the
-  /// shape's pose and map. The rounding of the shape's own points is not included.
+  W t_per_length;  ///< change of the ray's own parameter per unit of lambda
+  /// Error bound of the ray's points near the shape, a length. Covers the uncertainty of the
+  /// shape's pose and map, but not the rounding of the shape's own points.
   W loss = W(0);
 
+  /// The ray's own parameter at lambda, minus t_base.
   W t_offset(W lambda) const { return t_shift + lambda * t_per_length; }
   /// Rounding error of an offset: the sum of the errors of the offset's two parts, of their sum,
   /// and of the length.

@@ -98,8 +98,8 @@ inline constexpr T transposed_rounding = T(4) * epsilon<T>;
 template <class T>
 inline constexpr T turned_rounding = T(8) * epsilon<T>;
 
-/// Rounding of a ray's parameter near the shape, in units of the two parts that the parameter is
-/// the sum of (RayNearBall).
+/// Rounding of a ray's parameter near the shape, in units of the two parts whose sum is the
+/// parameter (RayNearBall).
 template <class T>
 inline constexpr T offset_rounding = T(4) * epsilon<T>;
 

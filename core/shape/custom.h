@@ -31,22 +31,24 @@ class SupportSource {
   void ask(std::size_t count, Coordinates* directions, Coordinates* points) const;
 
   /// True if the source also provides derivatives of the points with respect to the direction, and
-  /// a point inside the shape.
+  /// a point inside the shape, which middle() returns.
   bool has_jets() const { return has_jets_; }
   const Coordinates& middle() const { return middle_; }
-  /// Jet in one direction, as plain numbers: an ellipsoid if `curved`, otherwise a point.
+  /// Jet in one direction (core/support/jet.h), as plain numbers: an ellipsoid if `curved`,
+  /// otherwise a point.
   struct JetNumbers {
     bool curved = false;
     Coordinates point = {0, 0, 0};
-    Derivative factor = {};  ///< factor F of the ellipsoid around the inner point
+    Derivative factor = {};  ///< factor F of the ellipsoid, whose centre is middle()
   };
   /// Computes the jet from the support point and its derivative, a symmetric matrix. Casts use jets
   /// only as a guide, so wrong derivatives only cost time.
   JetNumbers jet_along(Coordinates direction) const;
 
-  static constexpr std::size_t most = 16;
+  static constexpr std::size_t most = 16;  ///< maximum `count` of ask()
 
  protected:
+  /// Declares that the source provides jets, and the point inside the shape.
   void know_jets(const Coordinates& middle) {
     has_jets_ = true;
     middle_ = middle;
@@ -56,7 +58,8 @@ class SupportSource {
   /// Implements `ask`, which calls this function with unit directions.
   virtual void support(std::size_t count, const Coordinates* directions,
                        Coordinates* points) const = 0;
-  /// Used by `jet_along`; called only on objects that have called know_jets.
+  /// Computes points and their derivatives for jet_along(). Called only on objects that have called
+  /// know_jets().
   virtual void jets(std::size_t count, const Coordinates* directions, Coordinates* points,
                     Derivative* derivatives) const;
 

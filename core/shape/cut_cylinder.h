@@ -66,7 +66,8 @@ struct CutCylinder {
     return {p.x(), p.y(), select(rims.is_upper, height(1, upper_slope), height(0, lower_slope))};
   }
 
-  /// Jet of the ellipse that contains the support point: the cut by the lower or the upper plane.
+  /// Jet of the ellipse that contains the support point. The ellipse is the cylinder's cut by the
+  /// lower or the upper plane.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     const Mask<W> is_upper = Rims<W>(*this, n).is_upper;

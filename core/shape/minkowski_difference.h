@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The configuration space obstacle A - B: all differences of a point of A and a point of B. If B
-// moves along a ray from the origin, B first touches A at the parameter t at which the ray hits the
-// obstacle.
+// The configuration space obstacle A - B: all differences a - b of a point of A and a point of B.
+// If B is moved along a ray from the origin, B first touches A at the ray parameter t at which the
+// ray hits the obstacle.
 #pragma once
 
 #include "core/math/vec.h"

@@ -24,7 +24,8 @@ struct Rounded {
         Field{"shape", &Rounded::shape, Unit::none, Range::any, "the shape to round"}};
   }
 
-  /// The closed form of the inner shape, grown by `radius`; empty if the inner shape has none.
+  /// Closed form of the inner shape, grown by `radius`; empty if the inner shape has no closed
+  /// form.
   ExactForm exact_form() const;
 
   template <class W>

@@ -82,7 +82,8 @@ struct Shape {
     return std::visit([&](const auto& shape) -> Vec3<W> { return shape.support(n); }, kind);
   }
 
-  /// The ellipsoid that agrees with the shape to second order in direction n.
+  /// Returns an ellipsoid that touches the shape at the support point in direction n and has the
+  /// same curvature there (core/support/jet.h).
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     return std::visit([&](const auto& shape) -> Jet<W> { return shape.jet(n); }, kind);

@@ -65,7 +65,7 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
       .group(group);
   verb.add_option("--joint", options.joints,
                   "Joint value (rad, or scene units for sliding joints); repeatable\n"
-                  "A ball joint or a free joint takes several values, comma-separated")
+                  "Ball, free and planar joints take several values, comma-separated")
       .takes("NAME=VALUE")
       .one_value_each()
       .group(group);
