@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Stages that cast with support points alone, for an observer of any type.
+// Runs the stages of a cast (policy.h) that use support points alone, for an observer of any type.
 #pragma once
 
 #include "core/cast/stages.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The stage that casts with models, for an observer of any type.
+// Runs the stage of a cast (policy.h) that uses models (core/model), for an observer of any type.
 #pragma once
 
 #include "core/cast/stages.h"

@@ -7,11 +7,12 @@
 
 namespace minkray {
 
-/// Requires a shape with a form. Lanes in doubt are neither hit, inside nor miss.
+/// Casts the requested lanes. Requires a shape with a closed form. Lanes in doubt are neither hit,
+/// inside nor miss.
 void filter_kernel_sse2(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
                         CastPacket& answers);
 
-/// Requires a machine with AVX2 and FMA.
+/// Same; requires a machine with AVX2 and FMA.
 void filter_kernel_avx2(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
                         CastPacket& answers);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Selects the result of a cast from the results of its stages: the first result that needs no proof
-// or that is proven to the precision of double ("sharply"). If there is no such result, selects the
-// first one with a coarser proof.
+// Selects the result of a cast from the results of its stages (policy.h). Takes the first result
+// that needs no proof or is proven to the precision of double ("sharply"). If there is none, takes
+// the first result with a coarser proof.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ class Judge {
  public:
   Judge(const StageQuestion& question, Proof proof) : question_(question), proof_(proof) {}
 
-  /// Takes the result of a stage. Returns true if no further stage has to run.
+  /// Receives the result of a stage. Returns true if no further stage has to run.
   bool accepts(CastResult<double> answer);
   /// Same for a result of the stage `finer`, which must always be proven.
   bool accepts_finer(const CastResult<double>& answer);

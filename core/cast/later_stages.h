@@ -8,11 +8,11 @@
 
 namespace minkray {
 
-/// Same as cast_ray, without the filter.
+/// Same as cast_ray (cast.h), without the filter.
 CastResult<double> cast_by_later_stages(const PreparedShape& shape, const Ray<double>& ray,
                                         const CastOptions& options, const CastObserver& observer);
 
-/// Same as cast_exit, without the filter.
+/// Same as cast_exit (cast.h), without the filter.
 CastResult<double> exit_by_later_stages(const PreparedShape& shape, const Ray<double>& ray,
                                         const CastOptions& options);
 

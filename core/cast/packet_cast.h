@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Casts several rays at one shape at once. Results are bit-identical to those of cast_ray.
+// Casts one packet of rays at one shape at once. Results are bit-identical to those of cast_ray.
 #pragma once
 
 #include <array>

@@ -7,12 +7,13 @@
 
 namespace minkray {
 
-/// Requires a shape with a model. Lanes that do not converge are neither hit, inside nor miss. If
-/// `leaves`, hits are where rays leave the shape, and lanes without a hit are undecided.
+/// Casts the requested lanes at a shape that has a model (core/model). Lanes that do not converge
+/// are neither hit, inside nor miss. If `leaves`, hits are where rays leave the shape, and lanes
+/// without a hit are undecided.
 void packet_kernel_sse2(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
                         bool leaves, CastPacket& answers);
 
-/// Requires a machine with AVX2 and FMA.
+/// Same; requires a machine with AVX2 and FMA.
 void packet_kernel_avx2(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,
                         bool leaves, CastPacket& answers);
 

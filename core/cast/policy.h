@@ -14,7 +14,7 @@ namespace minkray {
 enum class Stage : unsigned char {
   none,
   filter,          ///< the closed form, in double, with an error bound (filter.h)
-  bounds,          ///< the bounding box: misses only
+  bounds,          ///< the bounding box; can decide only misses
   model,           ///< the hull of the features that support calls have found (core/model)
   gjk,             ///< the GJK ray cast
   support_portal,  ///< same as `model`, but treats every shape as a polytope
@@ -27,7 +27,7 @@ enum class Stage : unsigned char {
 /// Set of hits that must be proven before they are returned, for shapes that may have corners.
 enum class Proof : unsigned char {
   none,
-  steep_hits,  ///< hits whose plane is nearly parallel to the ray
+  steep_hits,  ///< only hits whose supporting plane is nearly parallel to the ray
   all,
 };
 

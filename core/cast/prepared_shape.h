@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A shape with a pose, prepared for many casts. If the shape is a chain of affine maps of another
-// shape, solvers cast at that innermost shape and map the ray into its frame. This takes fewer and
-// more accurate operations. The bounding ball is computed once.
+// A shape with a pose, prepared for many casts. If the shape is another shape under one or more
+// affine maps, solvers map the ray into that innermost shape's frame and cast there. This takes
+// fewer and more accurate operations. The bounding ball is computed once.
 #pragma once
 
 #include <memory>
@@ -38,9 +38,9 @@ class PreparedShape {
                       placement.is_rigid_identity ? nullptr : &placement.to_inner, placement.loss) {
   }
 
-  /// Does not count references to the definition, so one call per cast is cheap, as in worlds. The
-  /// definition must outlive the prepared shape. `to_inner` is null for the identity. `loss` is as
-  /// in Placement.
+  /// Same, from the parts of a placement. Cheap enough for one call per cast, since references to
+  /// the definition are not counted. `to_inner` is null for the identity. `loss` is as in
+  /// Placement.
   PreparedShape(const Definition& definition, const TwoFoldVec3<double>& centre,
                 const Mat3<double>* to_inner, double loss)
       : definition_(std::shared_ptr<const Definition>(), &definition),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rebuilds a shape about its own middle. Coordinates of its support points are then no larger than
-// the shape, wherever the shape is and whatever maps apply to it.
+// Moves a shape under a map so that its centre is at the origin, and rebuilds it there. Coordinates
+// of its support points are then no larger than the shape, wherever the map puts the shape.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ struct AboutMiddle {
 
 /// Rebuilds the image of `shape` under `map`. Nested maps become one map per innermost shape, and
 /// points are mapped one by one. A shape far from the origin of its own frame is moved to that
-/// origin. This costs digits, and increases `loss`, only for custom shapes.
+/// origin. Only for custom shapes does this move lose digits and increase `loss`.
 AboutMiddle about_middle(const Shape& shape, const ComposedMap& map);
 
 /// Bounds the error of the image of a shape around the origin, caused by rounding of the rotations

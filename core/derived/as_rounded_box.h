@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rewrites the Minkowski sum of a box and an ellipsoid along the same axes as a rounded box. In
-// units of the ellipsoid's radii, the sum is that of a box and the unit ball.
+// units of the ellipsoid's radii, the ellipsoid is a unit ball, and the sum is a rounded box.
 #pragma once
 
 #include <optional>
@@ -22,9 +22,9 @@ inline Vec3<double> radii_of(const Shape& shape) {
 }  // namespace detail
 
 /// Returns the sum of a box and an ellipsoid as an affine image of a rounded box, which solvers
-/// support better. Returns nothing for other shapes. Also returns nothing for sizes beyond 2^+-16,
-/// and for ellipsoids of more than 1:4: the image multiplies rounding errors by the ellipsoid's
-/// proportions.
+/// support better. Returns nothing for other shapes. Also returns nothing for sizes outside 2^-16
+/// to 2^16, and for ellipsoids whose radii differ by more than 1:4, since the map multiplies
+/// rounding errors by this ratio.
 inline std::optional<Shape> as_rounded_box(const Shape& shape) {
   constexpr double most_slender = 4.0, largest = 0x1p16;
   const auto* sum = std::get_if<MinkowskiSum>(&shape.kind);

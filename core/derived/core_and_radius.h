@@ -25,7 +25,7 @@ enum class CoreKind : unsigned char {
 struct ShapeCore {
   CoreKind kind = CoreKind::point;
   bool is_round = false;  ///< `other`, and of revolution about the z axis
-  /// Number of a hull's points; copies of a point fill it up to a multiple of 8.
+  /// Number of a hull's points, filled up to a multiple of 8 by copies of a point.
   int count = 0;
   /// Half extents of a box; radii of an ellipsoid; for disks, x and y are the radii of the lower
   /// and the upper disk. For disks and segments, z is the half height.
@@ -50,10 +50,10 @@ struct CoreAndRadius {
   std::shared_ptr<const void> storage;             ///< owns the data that the core points to
 };
 
-/// Splits a shape under a map into core and radius. Removes rounding radii, affine maps that keep
-/// angles, and Minkowski sums with points and balls. Under any other map the core has the kind
-/// `other`. Exceptions are points, balls and hulls, and boxes and ellipsoids scaled along their
-/// axes.
+/// Splits a shape under a map into core and radius. Rounding radii, affine maps that keep angles,
+/// and Minkowski sums with points and balls become part of the radius or the pose. Under any other
+/// map the core has the kind `other`, except for points, balls, hulls, and boxes and ellipsoids
+/// that are scaled along their axes.
 CoreAndRadius core_and_radius(const Shape& shape, const Affine<double>& map = {});
 
 }  // namespace minkray

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A box with equal sides, for the part of a half-space that is near a body.
+// A box with equal sides, which represents the part of a half-space near a body.
 #pragma once
 
 #include "core/shape/shape.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Detects proportions for which the solvers' rounding is not designed: needles, plates and slivers
-// of more than 1 : 10^4 to 10^6, and edges rounded by equally small radii.
+// Detects proportions for which the solvers' tolerances for rounding are not designed: needles,
+// plates and slivers of more than 1 : 10^4 to 10^6, and edges rounded by similarly small radii.
 #pragma once
 
 #include "core/shape/shape.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Moves a shape to the origin if its support points are so far away that their rounding is large
-// compared with the shape. Removes translations inside of sums, differences, hulls and nested maps,
-// and adds them up with twice the digits.
+// compared with the shape. Translations within sums, differences, hulls and nested maps are removed
+// from the shape and added up with twice the digits.
 #pragma once
 
 #include <optional>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Makes two meshes from a shape's support mapping alone. A ray meets the outer mesh no later than
 // the shape, and the shape no later than the inner mesh. The inner mesh is the hull of support
-// points; the outer mesh is the intersection of their half-spaces. Half of the directions are facet
-// normals of the hull of the first half's support points, so polytopes are exact.
+// points; the outer mesh is the intersection of their half-spaces. Half of the directions are
+// spread evenly; the others are the facet normals of the hull of the first half's support points,
+// so that polytopes are exact.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bounds of a shape, from its support mapping alone: two support points per axis.
+// Bounding box and bounding ball of a shape, computed from two support points per axis.
 #pragma once
 
 #include "core/math/bounds.h"

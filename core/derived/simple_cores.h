@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes the simple cores: points, segments, hulls of points, disks.
+// Makes the cores (core_and_radius.h) of simple shapes: points, segments, hulls of points, disks.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace minkray::cores {
 /// Factor by which radii of balls are rounded up, so that the balls contain their cores.
 inline constexpr double padding = 1 + 16 * std::numeric_limits<double>::epsilon();
 
-/// `loss` is an error bound of the middle.
+/// Puts a core at a pose. `loss` is an error bound of the middle.
 inline CoreAndRadius placed(ShapeCore core, const Mat3<double>& turn,
                             const TwoFoldVec3<double>& middle, double loss) {
   core.rounding += loss;

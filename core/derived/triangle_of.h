@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes a shape of a triangle of a mesh.
+// Converts one triangle of a mesh to a shape.
 #pragma once
 
 #include "core/shape/shape.h"

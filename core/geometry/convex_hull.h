@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Computes the convex hull of points, and the vertices of an intersection of half-spaces (the dual
-// problem). Solid hulls use Qhull (Barber, Dobkin and Huhdanpaa, "The Quickhull Algorithm for
+// Computes the convex hull of points and, as the dual problem, the vertices of an intersection of
+// half-spaces. Solid hulls use Qhull (Barber, Dobkin and Huhdanpaa, "The Quickhull Algorithm for
 // Convex Hulls", 1996), which only convex_hull.cpp includes. Flat hulls use Andrew's monotone chain
 // (1979).
 #pragma once
@@ -15,7 +15,8 @@ namespace minkray {
 
 /// Polygons as consecutive lists of indices.
 struct Polygons {
-  /// Index into `corners` of each polygon's first corner; then the number of all corners.
+  /// Index into `corners` of each polygon's first corner. The last item is the number of all
+  /// corners.
   std::vector<std::uint32_t> begin = {0};
   std::vector<std::uint32_t> corners;
 
@@ -47,8 +48,8 @@ struct RoundFrame {
   }
 };
 
-/// Returns the frame of one or more finite points. Extents up to `flatness` times the largest, or
-/// within the rounding of the coordinates, count as zero.
+/// Returns the frame of one or more finite points. Extents of at most `flatness` times the largest
+/// extent, or within the rounding of the coordinates, count as zero.
 RoundFrame round_frame(std::span<const Vec3<double>> points, double flatness = 0);
 
 struct ConvexHull {

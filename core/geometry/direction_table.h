@@ -38,9 +38,9 @@ class DirectionTable {
   std::size_t cells() const { return begin_.size() - 1; }
 
  private:
-  /// Maps directions n to m = extents * axes^T n, the direction in the hull's round frame: n.p =
-  /// m.q + constant for a point p and its image q in that frame. There the vertices' normal cones
-  /// have similar sizes even if the hull is a needle.
+  /// Maps a direction n to m = extents * axes^T n, the same direction in the hull's round frame
+  /// (RoundFrame). For a point p and its image q in that frame, n.p = m.q + constant. There the
+  /// vertices' normal cones have similar sizes even if the hull is a needle.
   Mat3<double> to_frame_;
   CubeMap directions_;
   std::vector<std::uint32_t> begin_;  ///< per cell, start of its list in lists_

@@ -38,9 +38,9 @@ class FacetMesh {
     std::size_t neighbour(std::size_t k) const {
       return static_cast<std::size_t>(numbers_[neighbours + k]);
     }
-    /// True if no vertex of the hull reaches further along the normal than corner 0, and the other
-    /// corners reach equally far up to rounding. A supported facet is also thick enough that
-    /// rounding does not decide whether a line passes through it.
+    /// True if corner 0 is a support point of the hull in the direction of the normal, and the
+    /// other corners reach as far up to rounding. The facet is then also so thick that rounding
+    /// does not decide if a line passes through it.
     bool is_supported() const { return numbers_[supported] != 0.0; }
 
    private:
@@ -98,7 +98,7 @@ class FacetMesh {
                      [&](std::size_t cell) { return static_cast<double>(facing_[cell]); });
   }
 
-  /// Returns `count` numbers of each lane's facet, beginning with number `first`.
+  /// Returns `count` numbers of each lane's facet, from position `first` of its row.
   template <std::size_t first, std::size_t count, class W>
   std::array<W, count> numbers(const W& facet) const {
     static_assert(sizeof(Facet) == Facet::size * sizeof(double));

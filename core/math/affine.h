@@ -66,8 +66,8 @@ Mat3<T> rotation_matrix(T x, T y, T z, T w) {
   return m;
 }
 
-/// Takes a quaternion of any length except zero. Very long or short quaternions are scaled first,
-/// since their squares could leave the range of T; unit quaternions are not scaled.
+/// Same for a quaternion of any length except zero. Very long or short quaternions are scaled
+/// first, since their squares could leave the range of T; unit quaternions are not scaled.
 template <class T>
 Mat3<T> rotation_matrix_of_any(T x, T y, T z, T w) {
   using std::abs;
@@ -76,7 +76,7 @@ Mat3<T> rotation_matrix_of_any(T x, T y, T z, T w) {
   return rotation_matrix(x / size, y / size, z / size, w / size);
 }
 
-/// x -> translate + rotate(scale * x).
+/// Returns the map x -> translate + rotate(scale * x).
 template <class T>
 Affine<T> from_translate_rotate_scale(const Vec3<T>& translate, const Mat3<T>& rotate,
                                       const Vec3<T>& scale) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads rows of a table, one row per lane. Loads full registers and transposes them, instead of
-// inserting single numbers into lanes.
+// Reads rows of a table of numbers, one row per lane. Loads full registers and transposes them,
+// which is faster than inserting single numbers into lanes.
 #pragma once
 
 #include "core/math/wide.h"

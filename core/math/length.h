@@ -25,7 +25,7 @@ T length_of(const Vec3<T>& v) {
   return is_ordinary_square(squared) ? std::sqrt(squared) : v.stableNorm();
 }
 
-/// Accepts Eigen expressions, too, which are evaluated first.
+/// Same; also accepts Eigen expressions, which are evaluated first.
 inline double length_of(const Vec3<double>& v) {
   return length_of<double>(v);
 }

@@ -20,11 +20,11 @@ struct HeightField {
   std::optional<double> bottom = {};
 };
 
-/// The triangles of the cell in row r and column c have the numbers i = 2 (r (columns - 1) + c) and
-/// i + 1. The edge between the two goes from the cell's corner of least x and y to that of greatest
-/// x and y. The triangles of walls and bottom have the numbers after those of all cells. Throws
-/// std::invalid_argument unless there are at least two rows and columns, all numbers are finite,
-/// sizes are above 0 and the bottom is below all heights.
+/// Makes the terrain's mesh. The triangles of the cell in row r and column c have the numbers i = 2
+/// (r (columns - 1) + c) and i + 1. The edge between the two goes from the cell's corner of least x
+/// and y to that of greatest x and y. The triangles of walls and bottom have the numbers after
+/// those of all cells. Throws std::invalid_argument unless there are at least two rows and columns,
+/// all numbers are finite, sizes are above 0 and the bottom is below all heights.
 std::shared_ptr<const TriangleMesh> mesh_of(const HeightField& field);
 
 }  // namespace minkray

@@ -14,7 +14,7 @@
 namespace minkray {
 namespace {
 
-/// Values of a ray for tests of leaves.
+/// A ray, prepared for tests of leaves.
 struct LeafRay {
   double origin[3];      ///< by x, y, z
   double shear[4];       ///< change of the ray's x and y while z increases by 1

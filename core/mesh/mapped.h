@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A mesh under an affine map.
+// Makes a mesh that is the image of another mesh under an affine map.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,8 @@
 
 namespace minkray {
 
-/// The map need not be rigid. If it mirrors, triangles are flipped to stay counter-clockwise as
-/// seen from outside.
+/// Returns the image of the mesh. The map need not be rigid. If it mirrors, triangles are flipped
+/// to stay counter-clockwise as seen from outside.
 std::shared_ptr<const TriangleMesh> mapped(const TriangleMesh& mesh, const Affine<double>& map);
 
 }  // namespace minkray

@@ -35,8 +35,9 @@ struct PartCounts {
   std::uint64_t nodes = 0, triangles = 0;
 };
 
-/// Calls on_triangle(number, slabs) for the triangles whose boxes the ray meets; rounding may add
-/// triangles. on_triangle may lower slabs.numbers.t_max, and ends the traversal by returning true.
+/// Calls on_triangle(number, slabs) for all triangles whose boxes the ray meets and, due to
+/// rounding, for some others. on_triangle may lower slabs.numbers.t_max, and ends the traversal by
+/// returning true.
 template <class OnTriangle>
 void walk_triangles(const TriangleMesh& mesh, const Ray<double>& ray, PartCounts& counts,
                     OnTriangle&& on_triangle) {
@@ -54,8 +55,8 @@ void walk_triangles(const TriangleMesh& mesh, const Ray<double>& ray, PartCounts
   });
 }
 
-/// Returns the hit with the least t in [t_min, ray.t_max]; of several, the triangle with the least
-/// number.
+/// Returns the hit with the least t in [t_min, ray.t_max]; of several with that t, the one of the
+/// triangle with the least number.
 PartHit closest_part(const TriangleMesh& mesh, const Ray<double>& ray, double t_min,
                      PartCounts& counts);
 /// True if there is any hit with t in [t_min, ray.t_max].

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Casts many rays at one mesh: faster than single casts, with the same results.
+// Casts many rays at one mesh. Faster than single casts (mesh_ray.h), with the same results.
 #pragma once
 
 #include <span>

@@ -28,11 +28,11 @@ inline constexpr std::uint32_t no_part = ~std::uint32_t{0};
 struct MeshFaults {
   std::size_t without_area = 0;
   std::size_t repeated = 0;    ///< triangles with the same vertices as another
-  std::size_t open_edges = 0;  ///< edges not used equally often in both directions
+  std::size_t open_edges = 0;  ///< edges that triangles do not use equally often in both directions
   bool is_closed() const { return open_edges == 0; }
 };
 
-/// Sides from which rays hit triangles. `front` requires that all triangles face the same way.
+/// Sides from which rays hit triangles. For `front`, all triangles must face the same way.
 enum class MeshSides : unsigned char { both, front };
 
 /// Immutable: any number of threads may use a mesh, and any number of instances may share it.

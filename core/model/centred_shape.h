@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A shape relative to its own middle. The middle's place in the world is stored separately, so that
-// queries on two shapes are as precise a kilometre from the world's origin as at the origin.
+// A shape relative to its own centre. The centre's position in the world is stored separately, so
+// that queries on two shapes are as precise a kilometre from the world's origin as at the origin.
 #pragma once
 
 #include "core/derived/shape_bounds.h"
@@ -17,8 +17,9 @@ struct CentredShape {
   double radius;  ///< radius of a ball around the centre that contains the shape
 };
 
-/// `pose` maps the shape's frame to the world; it must be invertible. Affine maps around the shape
-/// are composed with the pose, and the translation of the result goes into the centre.
+/// Converts a shape at a pose. `pose` maps the shape's frame to the world and must be invertible.
+/// Affine maps around the shape are composed with the pose; the translation of the result becomes
+/// part of `centre`.
 inline CentredShape centred(Shape shape, const Affine<double>& pose = {}) {
   Affine<double> to_world = pose;
   while (const auto* transform = std::get_if<Transform>(&shape.kind)) {

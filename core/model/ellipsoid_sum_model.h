@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The model of a sum of ellipsoids. Its support function is a sum of square roots, so the hit's
-// direction is found without support calls: by osculating ellipsoids, as in SmoothModel, or by
-// ellipsoids that contain the sum and touch it. One support call then proves the hit. If the proof
-// fails, the cast continues as SmoothModel.
+// The model (line_cast.h) of a sum of ellipsoids. Its support function is a sum of square roots, so
+// the hit's direction is found without support calls: by osculating ellipsoids, as in SmoothModel,
+// or by ellipsoids that contain the sum and touch it. One support call then proves the hit. If the
+// proof fails, the cast continues as SmoothModel.
 #pragma once
 
 #include <optional>

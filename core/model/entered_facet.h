@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a polytope with stored facets, for every kind of polytope: between its
-// slabs, or by walking from triangle to triangle.
+// Finds where a line enters a polytope with stored facets. For boxes, tests the slabs; for hulls,
+// walks from triangle to triangle.
 #pragma once
 
 #include "core/model/entered_slab.h"

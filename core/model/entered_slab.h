@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a box: at the slab that it enters last.
+// Finds where a line enters a box: where the line enters the last of the box's three slabs.
 #pragma once
 
 #include "core/model/facet_plane.h"

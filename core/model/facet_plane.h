@@ -9,14 +9,14 @@
 
 namespace minkray {
 
-/// Expressed in the ray's frame: the ray runs down the z axis.
+/// The facet that a line enters, in the ray's frame, where the ray runs down the z axis.
 template <class W>
 struct EnteredFacet {
-  Mask<W> known = Mask<W>(false);  ///< a result was found
-  /// The line passes through the facet (for `around`, through the facet moved outwards), provided
-  /// that the facet is supported.
+  Mask<W> known = Mask<W>(false);  ///< the other members are valid
+  /// The line passes through the facet, if the facet is supported. For Facets::around, through the
+  /// facet moved outwards.
   Mask<W> enters = Mask<W>(false);
-  /// Proven: no point of the polytope is further along the facet's normal than `corner`.
+  /// True if it is proven that no point of the polytope is further along the normal than `corner`.
   Mask<W> supported = Mask<W>(false);
   /// Outward unit normal of the facet. For a line that misses, a direction perpendicular to the
   /// line, in which the line lies beyond the polytope.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The loop of all solvers on jets (docs/forms.md). A supporting plane in direction n gives a
 // rigorous lower bound of the hit. The hit on a model (the hull of the features found so far) is an
-// upper bound, approximately if features are not exact; its normal is the next n. The search ends
-// when both meet. W is a number or a packet, one ray per lane; finished lanes have no effect.
+// upper bound, which is only approximate if the features are not parts of the shape; its normal is
+// the next n. The search ends when both meet. W is a number or a packet, one ray per lane; finished
+// lanes have no effect.
 #pragma once
 
 #include "core/query/observer.h"
@@ -26,7 +27,7 @@ struct ModelHit {
 template <class W>
 struct LineHit {
   Mask<W> hit = Mask<W>(false);
-  Mask<W> miss = Mask<W>(false);  ///< if neither `hit` nor `miss` is set: exhausted
+  Mask<W> miss = Mask<W>(false);  ///< a lane with neither `hit` nor `miss` is exhausted
   /// Exhausted since the line is tangent to the shape within rounding; `normal` is that of the
   /// tangent plane.
   Mask<W> tangent = Mask<W>(false);
@@ -49,8 +50,9 @@ LineHit<W> pick(const Mask<W>& condition, const LineHit<W>& a, const LineHit<W>&
           select(condition, a.supports, b.supports)};
 }
 
-/// A model may compute in its own frame. All vectors here are in that frame, except the result's
-/// normal, which is in the shape's frame. Members of a model:
+/// Finds the first hit of a line with a shape by a model of the shape. A model may compute in its
+/// own frame. All vectors here are in that frame, except the result's normal, which is in the
+/// shape's frame. Members of a model:
 /// - `to_frame(n)`: converts a direction from the shape's frame to the model's; `to_shape(n)`:
 /// back;
 /// - `against_ray(n)`: the component of n against the ray's direction;
@@ -162,9 +164,9 @@ Vec3<W> normal_on_ellipsoid(const Vec3<Lane<W>>& radii, const Vec3<W>& s, const 
   return all(some) ? n : select<W>(some, n, Vec3<W>(-r));
 }
 
-/// Returns approximately that normal for any shape with these half extents. A first direction, of
-/// unit length, for the support mapping. Extents that are negligible compared with the largest are
-/// increased slightly.
+/// Returns approximately that normal, as a unit vector, for any shape with these half extents. Used
+/// as the first direction for the support mapping. Extents that are negligible compared with the
+/// largest are increased slightly.
 template <class W>
 Vec3<W> normal_on_extents(const Vec3<Lane<W>>& half_extents, const Vec3<W>& s, const Vec3<W>& r) {
   using std::max;

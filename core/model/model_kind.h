@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Selects the model that suits a shape, when the shape is prepared. Uses the jets in a few
-// directions.
+// Selects the model (line_cast.h) that suits a shape, when the shape is prepared. Tests the shape's
+// jets (core/support/jet.h) in a few directions.
 #pragma once
 
 #include "core/shape/shape.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Casts the ray at the hull of up to four sums of ellipsoids.
+// Result of a cast at the hull of up to four sums of ellipsoids (sums_cast.h).
 #pragma once
 
 #include <array>

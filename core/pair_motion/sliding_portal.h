@@ -2,8 +2,8 @@
 // Finds the time of impact of curved cores with quadratic convergence, by sequential quadratic
 // programming. Let u be the direction of motion. A supporting plane of C (swept_query.h) with the
 // normal n, scaled so that n.u = -1, gives a lower bound of the time. The bound is the minimum of
-// one function of n per feature (sliding_features.h). It is concave in n; its maximum is the time
-// of impact.
+// one function of n per feature (sliding_features.h). This bound is concave in n; its maximum is
+// the time of impact.
 #pragma once
 
 #include "core/pair_motion/swept_query.h"

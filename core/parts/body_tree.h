@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A body for traversals of pairs: nested boxes relative to the body's middle, down to leaves of up
-// to eight convex parts. A shape is one leaf with one part.
+// A body prepared for traversals of pairs of parts (pair_walk.h): nested boxes relative to the
+// body's middle, down to leaves of up to eight convex parts. A shape is one leaf with one part.
 #pragma once
 
 #include "core/parts/box_gaps.h"
@@ -20,8 +20,8 @@ class BodyTree {
   /// Radius of a ball around the middle that contains the body.
   double radius() const { return radius_; }
 
-  /// A box: the body's own, or that of a node's child. Encodes the node's number and the child's
-  /// index.
+  /// Number of a box: the body's own box, or that of a node's child. Encodes the node's number and
+  /// the child's index.
   using Box = std::uint32_t;
   static constexpr Box whole = ~Box{0};
 

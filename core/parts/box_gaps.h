@@ -52,7 +52,7 @@ inline double reach_along(const MiddleBox& box, const Vec3<double>& n) {
   return std::min(by_box, by_slab);
 }
 
-/// Frame of one box relative to the frame of the eight boxes.
+/// Frame of the other box relative to the frame of the eight boxes.
 struct Turned {
   Mat3<double> turn;
   Vec3<double> shift;

@@ -41,10 +41,10 @@ class PairWalk {
   double up_a() const { return up_a_; }
   double down_b() const { return down_b_; }
 
-  /// Calls visit(part_a, part_b) for pairs until it returns true. key(gap, box_a, box_b) is a lower
-  /// bound of the value that the visit finds, below 0 for boxes that overlap. Omits pairs whose key
-  /// is above limit(). Returns the least key of the omitted pairs, or 0 after a visit that returned
-  /// true.
+  /// Calls visit(part_a, part_b) for pairs until it returns true. key(gap, box_a, box_b) must be a
+  /// lower bound of the value that visits within these boxes find, and below 0 for boxes that
+  /// overlap. Omits pairs whose key is above limit(). Returns the least key of the omitted pairs,
+  /// or 0 after a visit that returned true.
   template <class Key, class Limit, class Visit>
   double run(const Key& key, const Limit& limit, const Visit& visit) {
     return run_leaves(key, limit, [&](BodyTree::Box a, BodyTree::Box b) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Input of queries on pairs: a convex shape, or a mesh, whose parts are its triangles.
+// A body in queries on pairs: a convex shape, which is its own only part, or a mesh, whose parts
+// are its triangles.
 #pragma once
 
 #include "core/mesh/triangle_mesh.h"
@@ -22,7 +23,7 @@ class PartsBody {
   const TriangleMesh* mesh_ = nullptr;
 };
 
-/// Triangles that a result belongs to; no_part for a shape.
+/// Numbers of the triangles that a result belongs to; no_part for a shape.
 struct PartPair {
   std::uint32_t a = no_part, b = no_part;
 };

@@ -9,13 +9,13 @@
 
 namespace minkray {
 
-/// Distance of the surfaces. If the surfaces cross, or one body lies within the other, the status
-/// is overlapping, and value and both bounds are 0, since no depth is computed. Only closed meshes
-/// can contain bodies. If surfaces cross, the points lie on two crossing parts. If one body is
-/// inside the other, both points are the same point of the inner body. The normal is that of a
-/// crossed face. The poses must be rigid. Begins with the pair of parts `first`. If the bodies have
-/// moved little, the parts of the last query save much of the search; any other parts only cost
-/// time.
+/// Returns the distance of the surfaces. If the surfaces cross, or one body lies within the other,
+/// the status is overlapping, and value and both bounds are 0, since no depth is computed. Only
+/// closed meshes can contain bodies. If surfaces cross, the points lie on two crossing parts. If
+/// one body is inside the other, both points are the same point of the inner body. The normal is
+/// that of a crossed face. The poses must be rigid. The search begins with the pair of parts
+/// `first`. If the bodies have moved little, the pair of the last query saves much of the search;
+/// any other pair only costs time.
 SignedDistance signed_distance(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
                                const Affine<double>& pose_b,
                                const SignedDistanceOptions& options = {}, PartPair* parts = nullptr,

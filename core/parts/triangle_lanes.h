@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Lower bounds of the distances from eight triangles to another triangle, by planes perpendicular
-// to the faces' normals, to the line between two middles, and to a known good direction. Pairs that
-// these bounds do not decide go to triangle_pair.h.
+// Lower bounds of the distances from eight triangles to another triangle, computed from the gaps
+// between planes perpendicular to the faces' normals, to the line between the triangles' middles,
+// and to a known good direction. Pairs that these bounds do not decide go to triangle_pair.h.
 #pragma once
 
 #include "core/parts/triangle_pair.h"

@@ -23,7 +23,7 @@ inline __m128 four(const float* from) {
   return _mm_loadu_ps(from);
 }
 
-/// Transposes four numbers per lane, which four_of(lane) reads.
+/// Transposes the four numbers that four_of(lane) returns for each lane.
 template <class FourOf>
 [[gnu::always_inline]] inline std::array<W, 4> side_by_side(const FourOf& four_of) {
   const auto both = [&](std::size_t lane) {

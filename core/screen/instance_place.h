@@ -16,7 +16,8 @@ namespace minkray {
 struct alignas(64) InstancePlace {
   double origin[3];
   float to_inner[9];   ///< column by column, rounded to nearest
-  std::uint32_t body;  ///< index of the InstanceBody; for instances without a body, a special value
+  std::uint32_t body;  ///< index of the InstanceBody; no_body, or another special value, for
+                       ///< instances without a body
 };
 static_assert(sizeof(InstancePlace) == 64);
 
@@ -27,8 +28,8 @@ struct TrailingDigits {
   std::int32_t of[9];
 };
 
-/// Splits a number into a float and a difference in units in the last place. False if the number is
-/// outside the range of float or subnormal in float.
+/// Splits a number into a float and the difference from it, in units in the last place. Returns
+/// false if the number is outside the range of float or subnormal in float.
 inline bool split(double x, float& leading, std::int32_t& trailing) {
   leading = static_cast<float>(x);
   const float size = std::abs(leading);

@@ -38,8 +38,8 @@ struct Screen {
   ScreenForm form;
   FormKind kind = FormKind::none;  ///< none: the definition cannot be screened in lanes
   bool is_whole = false;  ///< true: `form` is the shape's own form; false: a box around the shape
-  /// Planes of a polytope, five floats each: normal (3), offset, depth (by which corners of the
-  /// face may be below the plane).
+  /// Planes of a polytope, five floats each: normal (3), offset, and depth, the distance by which
+  /// corners of the face may be below the plane.
   std::shared_ptr<const std::vector<float>> planes = {};
 };
 
@@ -50,8 +50,9 @@ inline constexpr std::size_t form_kinds = static_cast<std::size_t>(FormKind::pol
 /// to which InstancePlace maps.
 Screen screen_of(const ShapeDefinition& definition, const Vec3<double>& centre);
 
-/// Bounds of the hit's parameter in each lane. `first` is infinite if the ray certainly misses, for
-/// any t_max; `last` is infinite unless the ray certainly hits from outside.
+/// Bounds of the hit's parameter in each lane. `first` is the lower bound; infinite if the ray
+/// certainly misses, for any t_max. `last` is the upper bound; infinite unless the ray certainly
+/// hits from outside.
 struct alignas(32) Screened {
   std::array<float, screen_lanes> first, last;
 };

@@ -18,9 +18,9 @@ struct MovingBody {
 
 struct RotatingCastResult {
   Status status = Status::exhausted;
-  double t = 0.0;               ///< first contact of the approximated motion
-  double t_lo = 0.0;            ///< no true contact before this time
-  bool proven = false;          ///< for a miss: the true motion has no contact either
+  double t = 0.0;       ///< first contact of the approximated motion
+  double t_lo = 0.0;    ///< no true contact before this time
+  bool proven = false;  ///< true for a miss if the true motion is proven to have no contact either
   double position_error = 0.0;  ///< bound of the gap or overlap of the true bodies at t
   Vec3<double> point_a = Vec3<double>::Zero(), point_b = Vec3<double>::Zero(),
                normal = Vec3<double>::Zero();
