@@ -27,8 +27,8 @@ struct Cut {
   }
 };
 
-/// Completes a form from its declared sizes; `form` holds the same sizes with scaled lengths.
-/// Returns no form if the planes cross within the cylinder by more than rounding.
+/// Completes a form from the declared sizes of the shape; `form` must have the same sizes with
+/// scaled lengths. Returns no form if the planes cross within the cylinder by more than rounding.
 inline Form cut_cylinder_form(Form form, const FormSizes& declared) {
   const double r = form.sizes[0], below = form.sizes[1], above = form.sizes[2];
   const double *low = &declared[3], *high = &declared[5];

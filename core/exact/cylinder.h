@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a cylinder around the z axis: an infinite cylinder between two planes.
+// Finds where a line enters a cylinder around the z axis. The cylinder is the part of an infinite
+// cylinder between two planes.
 #pragma once
 
 #include "core/exact/mantle.h"

@@ -18,7 +18,7 @@ struct Form {
   FormKind kind = FormKind::none;
   bool is_scaled = false, is_off_centre = false, is_upside_down = false;
   double R = 0;                     ///< radius of a ball around the form, in the form's frame
-  double inner_R = 0;               ///< this radius before scaling
+  double inner_R = 0;               ///< radius of a ball around the form before scaling
   double largest_scale = 1;         ///< the greatest component of `scale`
   Vec3<double> offset = {0, 0, 0};  ///< from the form's middle to the ball's centre, before scaling
   Vec3<double> scale = {1, 1, 1};
@@ -34,7 +34,8 @@ struct Form {
 /// multiplied by `down`. Returns FormKind::none if the closed form does not hold for these sizes.
 Form form_of(const ExactForm& declared, const Vec3<double>& ball_centre, double down);
 
-/// Form of a polytope, whose middle must be the bounding ball's centre; no form if null.
+/// Makes the form of a polytope, whose middle must be the bounding ball's centre. Returns
+/// FormKind::none if `polytope` is null.
 Form form_of(std::shared_ptr<const Polytope> polytope);
 
 }  // namespace minkray::exact

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a frustum around the z axis, an infinite cone between two planes, with
-// its larger disk below. A cone is a frustum whose upper disk is a point.
+// Finds where a line enters a frustum around the z axis, with its larger disk below. The frustum is
+// the part of an infinite cone between two planes. A cone is a frustum whose upper disk is a point.
 #pragma once
 
 #include "core/exact/nappe.h"

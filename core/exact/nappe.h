@@ -7,7 +7,8 @@
 
 namespace minkray::exact {
 
-/// Parameter greater than all that matter. Products with a line's coordinates do not overflow.
+/// A line's parameter, greater than all parameters at which lines meet shapes. Products with a
+/// line's coordinates do not overflow.
 template <class W>
 inline constexpr Lane<W> endless = 1 / least_to_square<Lane<W>>;
 

@@ -34,7 +34,7 @@ struct MeshAttributes {
   bool any() const { return !normal_of.empty() || !uv_of.empty() || !material_of.empty(); }
 };
 
-/// Scales to unit length; zero if the vector is zero or not finite.
+/// Returns the vector scaled to unit length; zero if the vector is zero or not finite.
 Vec3<float> attribute_normal(const Vec3<double>& normal);
 
 /// Omits and counts attributes with numbers out of range, zero normals or coordinates that are not
@@ -49,8 +49,9 @@ MeshAttributes attributes_of(const MeshAttributes& all, std::span<const std::uin
 void append(MeshAttributes& all, std::size_t before, const MeshAttributes& more, std::size_t count,
             std::uint32_t first_material);
 
-/// map_normals maps normals by the inverse transpose of a linear map. If the map mirrors, also call
-/// swap_corners, which swaps two corners of each triangle, as for the mesh's triangles.
+/// Maps normals by the inverse transpose of a linear map. If the map mirrors, the caller must also
+/// call swap_corners(), which swaps two corners of each triangle, and do the same to the mesh's own
+/// triangles.
 void map_normals(MeshAttributes& attributes, const Mat3<double>& inverse_transpose);
 void swap_corners(MeshAttributes& attributes);
 

@@ -26,10 +26,10 @@ struct MeshTriangles {
   std::vector<std::uint32_t> groups;
 };
 
-/// Returns all vertices, in the file's order and unit: at least one, each finite. If not null,
-/// `triangles` receives the triangles, and `attributes` the attributes of an OBJ file, for which
-/// the caller must call settle(). Throws std::runtime_error that describes the error in the file,
-/// without the file's name: "line 12: ...".
+/// Returns all vertices, in the file's order and unit. There is at least one, and all are finite.
+/// Writes the triangles to `triangles` if not null. Writes the attributes of an OBJ file to
+/// `attributes` if not null; the caller must then call settle(). Throws std::runtime_error that
+/// describes the error in the file, without the file's name: "line 12: ...".
 std::vector<Vec3<double>> read_mesh_vertices(const std::filesystem::path& path,
                                              MeshTriangles* triangles = nullptr,
                                              MeshAttributes* attributes = nullptr);

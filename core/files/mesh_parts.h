@@ -29,9 +29,10 @@ struct MeshParts {
   MeshAttributes attributes = {};  ///< of the triangles, after settle(), if requested
 };
 
-/// Reads OBJ and STL files like read_mesh_vertices(). A group is everything below an "o" or "g"
-/// line with another name, or a solid of an STL file. Each vertex that a face uses is in a part. A
-/// file without faces is a single part. Throws std::runtime_error without the file's name.
+/// Reads an OBJ or STL file, as read_mesh_vertices() does, and splits its mesh into parts. A group
+/// is everything below an "o" or "g" line with another name, or a solid of an STL file. Each vertex
+/// that a face uses is in a part. A file without faces is a single part. Throws std::runtime_error
+/// without the file's name.
 MeshParts read_mesh_parts(const std::filesystem::path& file, MeshSplit split,
                           MeshDetail detail = MeshDetail::vertices);
 

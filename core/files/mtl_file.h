@@ -20,8 +20,8 @@ struct MtlMaterial {
 /// Adds the materials of a library by their names. Ignores invalid lines.
 void read_mtl(std::string_view text, std::map<std::string, MtlMaterial>& materials);
 
-/// Returns the file of a picture that a mesh file names. Absolute names may be from another
-/// machine; for these, returns the file in `folder` with the last part of the name.
+/// Returns the path of a picture that a mesh file in `folder` names. Absolute names may be from
+/// another machine; for these, the path is `folder` and the last part of the name.
 std::filesystem::path picture_file(const std::filesystem::path& folder, std::string name);
 
 }  // namespace minkray

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Reads files that the user named. Only regular files: a pipe or a terminal may never end, and the
-// program would seem to hang.
+// Reads files that the user named. Rejects files that are not regular, since a pipe or a terminal
+// may never end, and the program would seem to hang.
 #pragma once
 
 #include <cstddef>

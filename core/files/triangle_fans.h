@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Makes triangles of faces that are given corner by corner.
+// Splits the faces of a mesh file, which are given corner by corner, into triangles.
 #pragma once
 
 #include "core/files/mesh_attributes.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Arrays of millions of entries that several threads fill. Entries are not initialised, so each
-// page is allocated when a thread fills it: in parallel, and in memory near that thread. Large
-// arrays use large pages if the system has them. Otherwise random reads spend half their time on
-// address translation.
+// page of memory is allocated only when a thread fills it. Pages are then allocated in parallel,
+// and in memory near the thread. Large arrays use large pages if the system has them. Otherwise
+// random reads spend half their time on address translation.
 #pragma once
 
 #include <memory>

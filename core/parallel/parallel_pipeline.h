@@ -8,7 +8,7 @@
 
 namespace minkray {
 
-/// Same as parallel_pipeline, for items of unspecified type.
+/// Same as parallel_pipeline() below, for items of unspecified type.
 void pipeline_of_any(std::size_t most, const std::function<std::shared_ptr<void>()>& read,
                      const std::function<void(void*)>& work,
                      const std::function<void(void*)>& write);

@@ -31,7 +31,7 @@ class PlaneRows {
 };
 
 /// The plane whose half-space a line enters last, and the plane whose half-space it leaves first.
-/// Of several planes with equal parameters, the first.
+/// If several planes have equal parameters, the first of them.
 struct PlaneScan {
   double in = 0, out = 0;  ///< the line's parameters there
   /// Latest entry and earliest exit if all planes are moved inwards by their depths and the line's
