@@ -43,8 +43,8 @@ template <CoreKind A, CoreKind B>
 struct SweptQuery {
   const CorePair& pair;
   Vec3<double> velocity;  ///< of B, in A's frame
-  double t_max;           ///< latest time of interest
-  double near;            ///< B moves at most this far between the two bounds of a hit
+  /// Latest time of interest; largest distance that B moves between the two bounds of a hit.
+  double t_max, near;
   double radius = pair.a.radius + pair.b.radius;
   double size = pair.size() + radius;
   double speed = velocity.norm();

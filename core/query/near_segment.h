@@ -16,9 +16,9 @@ namespace minkray {
 /// of the shape that are perpendicular to the ray; no other point of the ray is in the shape. The
 /// segment is empty if begin > end.
 struct NearSegment {
-  Vec3<double> centre;  ///< centre of the shape's bounding box
-  Vec3<double> s;       ///< the point of the ray's line closest to `centre`, relative to `centre`
-  Vec3<double> r;       ///< unit direction of the ray
+  /// Centre of the shape's bounding box; the point of the ray's line closest to the centre,
+  /// relative to the centre; unit direction of the ray.
+  Vec3<double> centre, s, r;
   double begin = 0, end = 0;
   double first = 0;  ///< lambda at the first of the two planes, even if the ray begins later
   double t_base = 0, t_shift = 0;  ///< their sum is the ray parameter t at lambda = 0

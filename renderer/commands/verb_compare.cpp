@@ -22,9 +22,11 @@ void add_compare(Parser& parser, ExitCode& exit_code) {
   verb.add_option("--rays", options->rays,
                   "Rays per object; default: 100000, or fewer above 200 objects")
       .between(1, 1 << 30);
-  verb.add_option("--directions", options->directions,
-                  "Number of support points from which the two meshes of each object are made\n"
-                  "Default: 500 (100 above 500 objects)")
+  verb.add_option(
+          "--directions", options->directions,
+          "Number of directions in which support points are computed; these points make the two "
+          "meshes of each object\n"
+          "Default: 500 (100 above 500 objects)")
       .between(20, 1 << 20);
   verb.add_option(
           "-o,--output", image.outputs,

@@ -95,8 +95,7 @@ void RenderArguments::add_to(const Verb& verb) {
       .group(several_machines);
   verb.add_option("--sample-share", sample_share,
                   "Split each pixel's samples into N shares and render only share I (1 to N); "
-                  "minkray merge "
-                  "joins the shares")
+                  "minkray merge joins the shares")
       .takes("I/N")
       .group(several_machines);
   verb.add_option("--tiles", tiles,
