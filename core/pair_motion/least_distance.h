@@ -22,10 +22,9 @@ class MovingPair {
   /// the same frame.
   virtual double gap(const Vec3<double>& n, double s) const = 0;
 
-  double size = 0;   ///< sum of the bodies' sizes; tolerances are relative to this sum
-  double speed = 0;  ///< upper bound of the speed of any point of B relative to any of A
-  double acceleration =
-      0;  ///< upper bound of the acceleration of any point of B relative to any of A
+  double size = 0;          ///< sum of the bodies' sizes; tolerances are relative to this sum
+  double speed = 0;         ///< upper bound of the speed of any point of B relative to any of A
+  double acceleration = 0;  ///< same, of the acceleration
   /// Lower bound of all distances, such as 0 for pairs whose distance is never negative.
   double least = -std::numeric_limits<double>::infinity();
 };

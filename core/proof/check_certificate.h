@@ -25,8 +25,8 @@ struct CertificateVerdict {
   /// Rounding moves a plane along its normal; along the ray the plane moves further.
   double t_base = 0, offset_lo = 0, offset_hi = 0;
   double offset_planes = 0;  ///< hit: offset of t where the ray crosses the last plane
-  double offset_spanned =
-      0;  ///< hit: offset of t at the spanned point; rounding can make it less than offset_planes
+  /// Hit: offset of t at the spanned point. Rounding can make it less than offset_planes.
+  double offset_spanned = 0;
   double gap = 0;      ///< hit: depth of the spanned point below the plane, (t_hi - t_lo) * cosine
   double lateral = 0;  ///< distance of the spanned point from the ray (hit) or origin (inside)
   double margin = 0;   ///< miss: distance from the plane to the ray; negative if they cross
