@@ -315,7 +315,7 @@ class Scene(RaysOfScene, PairsOfScene):
         tolerance : float
             Largest gap between the bounds, relative to the clearance.
         only_obstacles : bool
-            Check obstacles only, not self-collision.
+            Measure only to bodies of the other files, not between bodies of the first file.
         threads : int
             0: one per core.
         jac : bool
@@ -355,7 +355,7 @@ class Scene(RaysOfScene, PairsOfScene):
         tolerance : float
             Largest gap between the bounds of the clearance, relative to the clearance.
         only_obstacles : bool
-            Check obstacles only, not self-collision.
+            Measure only to bodies of the other files, not between bodies of the first file.
         threads : int
             0: one per core.
         budget : int
