@@ -12,7 +12,7 @@ namespace minkray {
 namespace {
 
 /// Leaves with fewer rays are faster one by one.
-constexpr std::uint32_t least_rays_of_leaf = 2;
+constexpr std::size_t least_rays_of_leaf = 2;
 
 /// Edge functions of a leaf's triangles for the first ray, and how they change with shears.
 struct LeafEdges {
@@ -58,11 +58,11 @@ class Group {
   }
 
   /// Returns the number of rays tested in each leaf.
-  std::uint32_t walk() {
-    std::uint32_t leaves = 0, looks = 0;
+  std::size_t walk() {
+    std::size_t leaves = 0, looks = 0;
     counts_.nodes += slabs_.walk(view_.nodes, [&](std::uint32_t leaf, std::uint32_t in) {
       ++leaves;
-      looks += static_cast<std::uint32_t>(__builtin_popcount(in));
+      looks += static_cast<std::size_t>(__builtin_popcount(in));
       return look_at(view_.leaves[leaf], in);
     });
     return leaves == 0 ? rays_of_group : looks / leaves;
