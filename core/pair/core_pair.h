@@ -32,12 +32,12 @@ struct CorePair {
   Vec3<double> to_b(const Vec3<double>& d) const { return turn.transpose() * d; }
 };
 
-/// A point c = b - a of C, in A's frame, and the features that a and b lie on.
+/// A point c = b - a of C, in A's frame, and the features that a and b lie on. The point b is in
+/// B's frame.
 struct DifferencePoint {
   Vec3<double> c;
-  Vec3<double> a;
-  int feature_a;
-  int feature_b;
+  Vec3<double> a, b;
+  int feature_a, feature_b;
 };
 
 /// Returns the point c = b - a of C with the least d.c: b is the point of B furthest along -d, and
@@ -46,7 +46,7 @@ template <CoreKind A, CoreKind B>
 inline DifferencePoint nearest_along(const CorePair& pair, const Vec3<double>& d) {
   const CoreSupport a = support_of_core<A>(pair.a, d),
                     b = support_of_core<B>(pair.b, pair.to_b(-d));
-  return {pair.x + pair.turn * b.point - a.point, a.point, a.feature, b.feature};
+  return {pair.x + pair.turn * b.point - a.point, a.point, b.point, a.feature, b.feature};
 }
 
 /// Same for cores whose kinds are not known when compiling: each call looks up the kinds.

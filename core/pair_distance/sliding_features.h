@@ -121,7 +121,7 @@ class SlidingFeatures {
   DifferencePoint on_features(int i, const Vec3<double>& d) const {
     const Vec3<double> a = point_of_feature<A>(query_.pair.a, feature_a_[i], d),
                        b = point_of_feature<B>(query_.pair.b, feature_b_[i], query_.pair.to_b(-d));
-    return {query_.pair.x + query_.pair.turn * b - a, a, feature_a_[i], feature_b_[i]};
+    return {query_.pair.x + query_.pair.turn * b - a, a, b, feature_a_[i], feature_b_[i]};
   }
 
   bool is_inside(const Vec3<double>& n, double depth, const Vec3<double>* z, Vec3<double>& common);
@@ -223,12 +223,15 @@ bool SlidingFeatures<A, B>::run(const Vec3<double>& d, double damping) {
     bool is_known = false;
     const Vec3<double> of_b = query_.pair.to_b(-nd);
     for (int i = 0; i < count_; ++i) {
-      const Vec3<double> a = point_of_feature<A>(query_.pair.a, feature_a_[i], nd),
-                         b = point_of_feature<B>(query_.pair.b, feature_b_[i], of_b);
+      const bool is_same_a = feature_a_[i] == w.feature_a, is_same_b = feature_b_[i] == w.feature_b;
+      const Vec3<double> a = is_same_a ? w.a
+                                       : point_of_feature<A>(query_.pair.a, feature_a_[i], nd),
+                         b = is_same_b ? w.b
+                                       : point_of_feature<B>(query_.pair.b, feature_b_[i], of_b);
       z[i] = query_.pair.x + query_.pair.turn * b - a;
       v += weight_[i] * z[i];
       on_a += weight_[i] * a;
-      is_known |= feature_a_[i] == w.feature_a && feature_b_[i] == w.feature_b;
+      is_known |= is_same_a && is_same_b;
       add_curvature<A>(S, weight_[i], query_.pair.a, Mat3<double>::Identity(), feature_a_[i], nd,
                        a);
       add_curvature<B>(S, weight_[i], query_.pair.b, query_.pair.turn, feature_b_[i], of_b, b);
