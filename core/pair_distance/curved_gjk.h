@@ -28,20 +28,20 @@ class CurvedGjk {
     }
     int stalls = 0;
     for (int turn = 1; turn <= query_.search.max_turns; ++turn) {
+      if constexpr (any_slides) {
+        const int plain_turns = query_.result.lower > 0 ? turns_apart : turns_near;
+        if (may_slide_ && turn > plain_turns) {
+          may_slide_ = false;
+          if (try_flat_ends(query_, d) || slide(d, SlidingFeatures<A, B>::first_damping))
+            return query_.result;
+        }
+      }
       const DifferencePoint w = query_.nearest(d);
       const double length = d.norm();
       query_.result.raise_lower(d.dot(w.c) / length, d / length);
       if (query_.result.lower > query_.search.apart) return finish(CoreStatus::separated);
       if (count_ > 0 && length - query_.result.lower <= query_.gap)
         return finish(CoreStatus::separated);
-      const int plain_turns = query_.result.lower > 0 ? turns_apart : turns_near;
-      if constexpr (any_slides) {
-        if (may_slide_ && count_ > 0 && turn > plain_turns) {
-          may_slide_ = false;
-          if (try_flat_ends(query_, d) || slide(d, SlidingFeatures<A, B>::first_damping))
-            return query_.result;
-        }
-      }
       for (int i = 0; i < count_; ++i)
         if (y_[i] == w.c) return finish(settled(length));
       if (count_ == 4) return finish(settled(length));

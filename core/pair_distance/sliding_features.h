@@ -75,6 +75,14 @@ class SlidingFeatures {
  private:
   static constexpr int most_turns = 12, most_turns_settling = 24;
 
+  /// The adjugate of H = I + scale S: H^-1 times a positive number, without roots or divisions.
+  static Symmetric adjugate(const Symmetric& S, double scale) {
+    const double xx = 1 + scale * S.xx, yy = 1 + scale * S.yy, zz = 1 + scale * S.zz,
+                 xy = scale * S.xy, xz = scale * S.xz, yz = scale * S.yz;
+    return {yy * zz - yz * yz, xx * zz - xz * xz, xx * yy - xy * xy,
+            xz * yz - xy * zz, xy * yz - xz * yy, xy * xz - yz * xx};
+  }
+
   /// H = I + scale S = L L^T.
   struct Metric {
     double l10, l20, l21, i0, i1, i2;
@@ -116,6 +124,27 @@ class SlidingFeatures {
       weight_[kept++] = closest.weight[i];
     }
     count_ = kept;
+  }
+
+  /// Finds the point of one or two features, moved by `shift`, that is closest to the origin in the
+  /// metric K, and keeps the features that it lies between. Returns its direction in space.
+  Vec3<double> nearest_of_two(const Symmetric& K, const Vec3<double>* z,
+                              const Vec3<double>& shift) {
+    const Vec3<double> first = z[0] + shift;
+    weight_[0] = 1;
+    if (count_ == 1) return K * first;
+    const Vec3<double> edge = z[1] - z[0], turned = K * edge;
+    const double length = edge.dot(turned), t = -first.dot(turned);
+    if (t > 0 && t < length) {
+      weight_[1] = t / length;
+      weight_[0] = 1 - weight_[1];
+      return K * first + weight_[1] * turned;
+    }
+    count_ = 1;
+    if (!(t > 0)) return K * first;
+    feature_a_[0] = feature_a_[1];
+    feature_b_[0] = feature_b_[1];
+    return K * (z[1] + shift);
   }
 
   DifferencePoint on_features(int i, const Vec3<double>& d) const {
@@ -263,6 +292,11 @@ bool SlidingFeatures<A, B>::run(const Vec3<double>& d, double damping) {
       if (count_ == 4) return false;
       z[count_] = w.c;
       append(w.feature_a, w.feature_b, 0);
+    }
+    if (count_ <= 2) {
+      nd = nearest_of_two(adjugate(S, scale), z, shift * n);
+      if (!(nd.squaredNorm() > 0)) return false;
+      continue;
     }
     const Metric metric(S, scale);
     Vec3<double> mapped[4];
