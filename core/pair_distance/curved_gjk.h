@@ -11,6 +11,19 @@
 
 namespace minkray {
 
+/// A point of the core that is near p, where finding one is cheap; otherwise the middle.
+template <CoreKind K>
+Vec3<double> point_near(const ShapeCore& core, const Vec3<double>& p) {
+  const Vec3<double>& size = core.size;
+  if constexpr (K == CoreKind::segment) {
+    return {0, 0, std::clamp(p.z(), -size.z(), size.z())};
+  } else if constexpr (K == CoreKind::box) {
+    return p.cwiseMax(-size).cwiseMin(size);
+  } else {
+    return {0, 0, 0};
+  }
+}
+
 template <CoreKind A, CoreKind B>
 class CurvedGjk {
  public:
@@ -20,7 +33,8 @@ class CurvedGjk {
   }
 
   CoreDistance run() {
-    Vec3<double> d = query_.pair.x;
+    Vec3<double> d = between_near_points();
+    if (!(d.squaredNorm() > 0)) d = query_.pair.x;
     if (!(d.squaredNorm() > 0)) d = Vec3<double>::UnitX();
     double squared = std::numeric_limits<double>::infinity();
     if (query_.search.memory) {
@@ -85,6 +99,16 @@ class CurvedGjk {
   static constexpr double resumed_damping = 1e-3;
   static constexpr bool any_slides =
       (A == CoreKind::other || slides(A) || slides(B)) || B == CoreKind::other;
+
+  /// First direction: from a point of A near B's middle to a point of B near that point.
+  Vec3<double> between_near_points() const {
+    const CorePair& pair = query_.pair;
+    const Vec3<double> from_a = pair.x - point_near<A>(pair.a, pair.x);
+    if constexpr (B == CoreKind::segment || B == CoreKind::box)
+      return from_a + pair.turn * point_near<B>(pair.b, pair.to_b(-from_a));
+    else
+      return from_a;
+  }
 
   CoreStatus settled(double length) const {
     if (query_.result.lower > 0) return CoreStatus::separated;
@@ -198,7 +222,9 @@ class CurvedGjk {
     // A separating plane is more reliable than a simplex that is flat to within rounding.
     if (status == CoreStatus::overlapping && query_.result.lower > 0)
       query_.result.status = CoreStatus::unsettled;
-    if (count_ == 3 && status != CoreStatus::overlapping) use_face();
+    if (count_ == 3 && status != CoreStatus::overlapping &&
+        query_.result.upper - query_.result.lower > query_.gap)
+      use_face();
     return query_.result;
   }
 
