@@ -240,8 +240,8 @@ bool SlidingFeatures<A, B>::run(const Vec3<double>& d, double damping) {
   const int most = is_direction_asked_ ? most_turns_settling : most_turns;
   for (int step = 0; step < most; ++step, damping = step < 7 ? damping * 0.1 : 0) {
     const DifferencePoint w = query_.nearest(nd);
-    const double length = nd.norm(), gap = nd.dot(w.c) / length;
-    const Vec3<double> n = nd / length;
+    const double length = nd.norm(), inverse = 1 / length, gap = inverse * nd.dot(w.c);
+    const Vec3<double> n = inverse * nd;
     query_.result.raise_lower(gap, n);
     if (query_.result.lower > query_.search.apart) {
       query_.result.status = CoreStatus::separated;
