@@ -30,34 +30,46 @@ class SlidingPortal {
     append(feature_a, feature_b, weight);
   }
 
-  /// Searches from the normal n, which faces against the motion. Returns true if the search decided
-  /// the query.
-  bool run(const Vec3<double>& n) {
-    Vec3<double> nd = n / -n.dot(query_.along);
-    double damping = 0.1;  // relative to the size; needed for pairs of a face and a rim
+  /// Searches from the normal `first`, which faces against the motion. Returns true if the search
+  /// decided the query.
+  bool run(const Vec3<double>& first) {
+    Vec3<double> nd = first / -first.dot(query_.along);
+    double damping = 0.1;  // relative to the size; pairs of a face and a rim need it
     for (int step = 0; step < most_turns; ++step, damping = step < 7 ? damping * 0.1 : 0) {
-      const SweptPoint w = query_.support(nd);
+      const CorePair& pair = query_.pair;
+      const DifferencePoint found = query_.nearest(nd);
+      const double length = nd.norm();
+      const Vec3<double> n = nd / length;
+      const SweptPoint w =
+          query_.grown_along(n, found.c, found.a, found.feature_a, found.feature_b);
       if (query_.judge(nd, w)) return true;
       if (query_.has_met()) return query_.end_hit();
-      if (is_along_an_end(nd)) return false;
-      const Vec3<double> of_b = query_.pair.to_b(-nd);
+      const Vec3<double> of_b = pair.to_b(-nd);
+      if (is_along_an_end(nd, of_b)) return false;
       Symmetric S;
       SweptPoint z[4];
       double p = 0, q = 0;
       bool is_known = false;
       for (int i = 0; i < count_; ++i) {
-        const CorePair& pair = query_.pair;
-        const int of_a = feature_a_[i], of_features_b = feature_b_[i];
-        const Vec3<double> a = point_of_feature<A>(pair.a, of_a, nd),
-                           b = point_of_feature<B>(pair.b, of_features_b, of_b);
-        z[i] = query_.grown(pair.x + pair.turn * b - a, a, nd, of_a, of_features_b);
+        const int on_a = feature_a_[i], on_b = feature_b_[i];
+        const bool is_same_a = on_a == w.feature_a, is_same_b = on_b == w.feature_b;
+        const Vec3<double> a = is_same_a ? found.a : point_of_feature<A>(pair.a, on_a, nd),
+                           b = is_same_b ? found.b : point_of_feature<B>(pair.b, on_b, of_b);
+        z[i] = is_same_a && is_same_b
+                   ? w
+                   : query_.grown_along(n, pair.x + pair.turn * b - a, a, on_a, on_b);
         p += weight_[i] * z[i].p;
         q += weight_[i] * z[i].q;
-        is_known |= of_a == w.feature_a && of_features_b == w.feature_b;
-        add_curvature<A>(S, weight_[i], pair.a, Mat3<double>::Identity(), of_a, nd, a);
-        add_curvature<B>(S, weight_[i], pair.b, pair.turn, of_features_b, of_b, b);
+        is_known |= is_same_a && is_same_b;
+        add_curvature<A>(S, weight_[i], pair.a, Mat3<double>::Identity(), on_a, nd, a);
+        add_curvature<B>(S, weight_[i], pair.b, pair.turn, on_b, of_b, b);
       }
-      add_radius(S, nd);
+      // The curvature of a ball.
+      const double of_radius = query_.radius / length;
+      S.xx += of_radius;
+      S.yy += of_radius;
+      S.zz += of_radius;
+      S.add(-of_radius, n);
       constexpr double stationary = 3e-8;
       if (is_known && p * p + q * q <= stationary * stationary * query_.size * query_.size)
         return surround(nd, z);
@@ -80,23 +92,14 @@ class SlidingPortal {
     weight_[count_++] = weight;
   }
 
-  void add_radius(Symmetric& S, const Vec3<double>& nd) const {
-    if (!(query_.radius > 0)) return;
-    const double length = nd.norm(), k = query_.radius / length;
-    S.xx += k;
-    S.yy += k;
-    S.zz += k;
-    S.add(-k / (length * length), nd);
-  }
-
-  /// True if nd is the normal of a flat end, where the support point jumps. Only the portal can
-  /// then continue.
-  bool is_along_an_end(const Vec3<double>& nd) const {
+  /// True if nd is the normal of a flat end, above which the support point jumps. Then only the
+  /// portal can continue.
+  bool is_along_an_end(const Vec3<double>& nd, const Vec3<double>& of_b) const {
     constexpr double flat = 1e-6;
     const auto is_along = [](const ShapeCore& core, const Vec3<double>& d) {
       return core.kind == CoreKind::disks && d.x() * d.x() + d.y() * d.y() < flat * d.squaredNorm();
     };
-    return is_along(query_.pair.a, nd) || is_along(query_.pair.b, query_.pair.to_b(nd));
+    return is_along(query_.pair.a, nd) || is_along(query_.pair.b, of_b);
   }
 
   /// Computes the next normal and its weights.
@@ -104,13 +107,14 @@ class SlidingPortal {
     const Vec3<double> s0 = S * query_.e0, s1 = S * query_.e1;
     const double least = query_.size * (damping + 1e-9);
     const double b00 = query_.e0.dot(s0) + least, b01 = query_.e0.dot(s1),
-                 b11 = query_.e1.dot(s1) + least, determinant = b00 * b11 - b01 * b01;
-    const double i00 = b11 / determinant, i11 = b00 / determinant, i01 = -b01 / determinant;
+                 b11 = query_.e1.dot(s1) + least, inverse = 1 / (b00 * b11 - b01 * b01);
+    const double i00 = b11 * inverse, i11 = b00 * inverse, i01 = -b01 * inverse;
     double t[4], Q[4][4];
-    for (int i = 0; i < count_; ++i) t[i] = nd.dot(z[i].y);
-    for (int i = 0; i < count_; ++i)
-      for (int j = 0; j < count_; ++j)
-        Q[i][j] = z[i].p * (i00 * z[j].p + i01 * z[j].q) + z[i].q * (i01 * z[j].p + i11 * z[j].q);
+    for (int j = 0; j < count_; ++j) {
+      t[j] = nd.dot(z[j].y);
+      const double up = i00 * z[j].p + i01 * z[j].q, uq = i01 * z[j].p + i11 * z[j].q;
+      for (int i = 0; i <= j; ++i) Q[i][j] = z[i].p * up + z[i].q * uq;
+    }
     double best[4];
     if (!least_of_subsets(t, Q, best)) return false;
     double p = 0, q = 0;
@@ -131,7 +135,7 @@ class SlidingPortal {
   }
 
   /// Finds weights w >= 0 with sum 1 that minimise t.w + w Q w / 2. Q has rank 2, so at most three
-  /// weights are not 0.
+  /// weights are not 0. Only the upper triangle of Q is set.
   bool least_of_subsets(const double* t, const double (*Q)[4], double* best) const {
     double least = std::numeric_limits<double>::infinity();
     const auto take = [&](double value, int i, double u, int j, double v, int k, double w) {
@@ -147,16 +151,18 @@ class SlidingPortal {
       take(at_a, a, 1, a, 0, a, 0);
       for (int b = a + 1; b < count_; ++b) {
         const double bb = Q[a][a] - 2 * Q[a][b] + Q[b][b], to_b = t[b] - t[a] + Q[a][b] - Q[a][a];
-        const double x = -to_b / bb;
-        if (x > 0 && x < 1) take(at_a + to_b * x + 0.5 * bb * x * x, a, 1 - x, b, x, a, 0);
+        if (to_b < 0 && -to_b < bb) {
+          const double x = -to_b / bb;
+          take(at_a + 0.5 * to_b * x, a, 1 - x, b, x, a, 0);
+        }
         for (int c = b + 1; c < count_; ++c) {
           const double cc = Q[a][a] - 2 * Q[a][c] + Q[c][c],
                        bc = Q[a][a] - Q[a][b] - Q[a][c] + Q[b][c],
                        to_c = t[c] - t[a] + Q[a][c] - Q[a][a], area = bb * cc - bc * bc;
-          const double y = (bc * to_c - cc * to_b) / area, z = (bc * to_b - bb * to_c) / area;
-          if (!(y > 0 && z > 0 && y + z < 1)) continue;
-          take(at_a + to_b * y + to_c * z + 0.5 * (bb * y * y + 2 * bc * y * z + cc * z * z), a,
-               1 - y - z, b, y, c, z);
+          const double at_b = bc * to_c - cc * to_b, at_c = bc * to_b - bb * to_c;
+          if (!(at_b > 0 && at_c > 0 && at_b + at_c < area)) continue;
+          const double y = at_b / area, z = at_c / area;
+          take(at_a + 0.5 * (to_b * y + to_c * z), a, 1 - y - z, b, y, c, z);
         }
       }
     }

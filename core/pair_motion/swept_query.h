@@ -60,17 +60,23 @@ struct SweptQuery {
   SweptPoint in_shadow(const Vec3<double>& y, const Vec3<double>& a, int of_a, int of_b) const {
     return {y, a, e0.dot(y), e1.dot(y), along.dot(y), of_a, of_b};
   }
-  /// Returns the point of C with the least y.d.
-  SweptPoint support(const Vec3<double>& d) {
+  DifferencePoint nearest(const Vec3<double>& d) {
     ++result.supports;
-    const DifferencePoint w = nearest_along<A, B>(pair, d);
+    return nearest_along<A, B>(pair, d);
+  }
+  SweptPoint support(const Vec3<double>& d) {
+    const DifferencePoint w = nearest(d);
     return grown(w.c, w.a, d, w.feature_a, w.feature_b);
   }
   /// Moves a point of the cores' difference to the surface of C, by both radii against d.
   SweptPoint grown(const Vec3<double>& c, const Vec3<double>& a, const Vec3<double>& d, int of_a,
                    int of_b) const {
     if (!(radius > 0)) return in_shadow(c, a, of_a, of_b);
-    const Vec3<double> n = d / d.norm();
+    return grown_along(d / d.norm(), c, a, of_a, of_b);
+  }
+  /// Same for a unit vector n.
+  SweptPoint grown_along(const Vec3<double>& n, const Vec3<double>& c, const Vec3<double>& a,
+                         int of_a, int of_b) const {
     return in_shadow(c - radius * n, a + pair.a.radius * n, of_a, of_b);
   }
   /// Returns the furthest point of the given features along d, which need not be the support point
