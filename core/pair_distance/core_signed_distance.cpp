@@ -76,18 +76,21 @@ double depth_within(const Enclosure& four) {
   return least;
 }
 
-/// Improves axis and points of cores that nearly touch. The difference of their nearest points then
-/// has too few digits for a direction. So B is moved out along the axis, where a search finds a
-/// more accurate axis and points. These also hold for B at its place. The next round moves B out
-/// along the new axis.
-void improve_plane(const CorePair& pair, CoreDistance& found) {
-  constexpr double stand_offs[] = {1e-3, 1e-3, 1e-5};
+/// Improves axis and points of cores that nearly touch, or whose bounds differ by more than `gap`.
+/// If they nearly touch, the difference of their nearest points has too few digits to give a
+/// direction. So B is moved out along the axis, where a search finds a more accurate axis and
+/// points. The axis and points are also valid for B in place, and the next round moves B out along
+/// the new axis.
+void improve_plane(const CorePair& pair, double gap, CoreDistance& found) {
+  constexpr double stand_offs[] = {1e-3, 1e-3, 1e-5, 1e-1, 1e-2};
   for (const double stand_off : stand_offs) {
     if (found.axis.isZero(0)) return;
     CorePair moved = pair;
     const Vec3<double> away = stand_off * pair.size() * found.axis;
     moved.x += away;
-    const CoreDistance there = distance_of_cores(moved, CoreSearch{});
+    CoreSearch finer;
+    if (gap < finer.gap * pair.size()) finer.gap = 1e-15;
+    const CoreDistance there = distance_of_cores(moved, finer);
     found.supports += there.supports + 1;
     if (there.axis.isZero(0)) return;
     found.raise_lower(there.axis.dot(nearest_along(pair, there.axis).c), there.axis);
@@ -97,7 +100,7 @@ void improve_plane(const CorePair& pair, CoreDistance& found) {
       found.a = there.a;
       found.c = between;
     }
-    if (found.upper - found.lower <= settled_core_gap * pair.size()) break;
+    if (found.upper - found.lower <= gap) break;
   }
   if (found.lower > 0) found.status = CoreStatus::separated;
 }
@@ -122,7 +125,7 @@ CoreDistance depth_of_cores(const CorePair& pair, Enclosure enclosure, CoreDista
   // result.
   const double slight = gap * (pair.size() + pair.x.norm());
   if (found.status == CoreStatus::overlapping && found.lower >= -slight) {
-    if (!(found.c.norm() <= slight / 2)) improve_plane(pair, found);
+    if (!(found.c.norm() <= slight / 2)) improve_plane(pair, settled_core_gap * pair.size(), found);
     if (found.lower <= 0 && found.c.norm() <= slight / 2) return found;
   }
   // Keeps the points of the distance search for a separated result. For an overlap, a common point
@@ -230,9 +233,11 @@ CoreDistance core_signed_distance(const CorePair& pair, const SignedDistanceOpti
     }
     if (options.max_supports == 0) return found;
   }
-  if (is_settled() && found.status != CoreStatus::unsettled) return found;
+  const bool is_done = is_settled() && found.status != CoreStatus::unsettled;
+  if (is_done && (options.only_sign || found.upper - found.lower <= std::max(gap, pair.rounding())))
+    return found;
   if (found.status != CoreStatus::overlapping && std::isfinite(found.upper)) {
-    improve_plane(pair, found);
+    improve_plane(pair, is_done ? gap : settled_core_gap * pair.size(), found);
     if (is_settled()) return found;
   }
   // If both cores are points at the same place, the size is 0.
