@@ -92,8 +92,8 @@ class SlidingPortal {
     weight_[count_++] = weight;
   }
 
-  /// True if nd is the normal of a flat end, above which the support point jumps. Then only the
-  /// portal can continue.
+  /// True if nd is the normal of a flat end, where the support point jumps. Only the portal can
+  /// then continue.
   bool is_along_an_end(const Vec3<double>& nd, const Vec3<double>& of_b) const {
     constexpr double flat = 1e-6;
     const auto is_along = [](const ShapeCore& core, const Vec3<double>& d) {

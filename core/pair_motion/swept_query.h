@@ -60,10 +60,12 @@ struct SweptQuery {
   SweptPoint in_shadow(const Vec3<double>& y, const Vec3<double>& a, int of_a, int of_b) const {
     return {y, a, e0.dot(y), e1.dot(y), along.dot(y), of_a, of_b};
   }
+  /// Returns the point of the cores' difference with the least y.d.
   DifferencePoint nearest(const Vec3<double>& d) {
     ++result.supports;
     return nearest_along<A, B>(pair, d);
   }
+  /// Returns the point of C with the least y.d.
   SweptPoint support(const Vec3<double>& d) {
     const DifferencePoint w = nearest(d);
     return grown(w.c, w.a, d, w.feature_a, w.feature_b);
