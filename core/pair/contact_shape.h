@@ -83,14 +83,16 @@ struct PlacedMiddle {
 };
 PlacedMiddle placed_middle(const ContactShape& shape, const Affine<double>& pose);
 
-/// Vector between the middles of two bodies in world axes. `loss` bounds the error due to rounding
-/// of the middles' positions, but not the rounding of the vector itself.
+/// Vector between the middles of two bodies in world axes.
 struct Between {
   Vec3<double> x;
+  /// Bounds the error of x that stems from rounding while the middles' positions are computed. The
+  /// final rounding of x itself is not included.
   double loss = 0;
 };
 
-/// Vector from A's middle to B's middle. Subtracts the positions before they are rounded.
+/// Vector from A's middle to B's middle. Subtracts unrounded positions, so a large common offset of
+/// the bodies does not add to the error.
 Between between_middles(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                         const Affine<double>& pose_b);
 

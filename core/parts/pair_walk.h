@@ -42,8 +42,8 @@ class PairWalk {
   double down_b() const { return down_b_; }
 
   /// Calls visit(part_a, part_b) for pairs until it returns true. key(gap, box_a, box_b) must be a
-  /// lower bound of the value that visits within these boxes find, and below 0 for boxes that
-  /// overlap. Omits pairs whose key is above limit(). Returns the least key of the omitted pairs,
+  /// lower bound of every value that a call of visit() can find for parts in these two boxes. For
+  /// boxes that overlap, the key must be below 0. Omits pairs whose key is above limit(). Returns the least key of the omitted pairs,
   /// or 0 after a visit that returned true.
   template <class Key, class Limit, class Visit>
   double run(const Key& key, const Limit& limit, const Visit& visit) {

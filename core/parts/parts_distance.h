@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Signed distance of two bodies, at least one a mesh: the least distance over all pairs of their
 // parts (a mesh's triangles, or the convex shape itself). Parts are convex, so each pair has proven
-// bounds. The least lower bound and the least upper bound hold for the bodies.
+// bounds. The smallest of the pairs' lower bounds and the smallest of their upper bounds hold for
+// the bodies.
 #pragma once
 
 #include "core/pair_distance/signed_distance.h"
@@ -11,9 +12,9 @@ namespace minkray {
 
 /// Returns the distance of the surfaces. If the surfaces cross, or one body lies within the other,
 /// the status is overlapping, and value and both bounds are 0, since no depth is computed. Only
-/// closed meshes can contain bodies. If surfaces cross, the points lie on two crossing parts. If
-/// one body is inside the other, both points are the same point of the inner body. The normal is
-/// that of a crossed face. The poses must be rigid. The search begins with the pair of parts
+/// closed meshes can contain bodies. If surfaces cross, the points lie on two crossing parts, and
+/// the normal is that of a crossed face. If one body is inside the other and no surfaces cross,
+/// both points are the same point of the inner body. The poses must be rigid. The search begins with the pair of parts
 /// `first`. If the bodies have moved little, the pair of the last query saves much of the search;
 /// any other pair only costs time.
 SignedDistance signed_distance(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,

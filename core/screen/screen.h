@@ -18,15 +18,17 @@ namespace minkray {
 
 inline constexpr int screen_lanes = 8;
 
-/// The numbers of an exact::Form as floats, for one lane.
+/// The numbers of an exact::Form (core/exact/form.h) as floats, for one lane.
 struct alignas(64) ScreenForm {
   std::array<float, 4> sizes = {};
-  float slope = 0, sine = 0, R = 0;
+  float slope = 0, sine = 0;
+  float R = 0;  ///< radius of a ball around the form, in the form's frame
   /// Least radius of curvature. The error bounds require that errors of positions are small
   /// relative to this radius and to R.
   float least = 0;
   std::array<float, 3> scale = {1, 1, 1};
-  /// Magnitude of positions near the form, in the form's frame.
+  /// Largest magnitude of the form's coordinates, to which rounding errors are relative: (radius of
+  /// the form + length of its offset) * greatest scale.
   float extent = 0;
   std::array<float, 3> offset = {};
   float up = 1;  ///< -1: upside down
@@ -46,8 +48,8 @@ struct Screen {
 /// Number of values of FormKind.
 inline constexpr std::size_t form_kinds = static_cast<std::size_t>(FormKind::polytope) + 1;
 
-/// Makes the screening data of a definition. `centre` is the centre of the inner ball, in the frame
-/// to which InstancePlace maps.
+/// Makes the screening data of a definition. `centre` is the centre of definition.inner_ball(), the
+/// bounding ball of the shape without outer transforms, in the frame to which InstancePlace maps.
 Screen screen_of(const ShapeDefinition& definition, const Vec3<double>& centre);
 
 /// Bounds of the hit's parameter in each lane. `first` is the lower bound; infinite if the ray

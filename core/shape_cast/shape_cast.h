@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Continuous collision detection of two shapes that move without turning (van den Bergen, 2004,
 // sections 1 and 4). B moves by t * direction relative to A, and meets A at the least t for which
-// t * direction lies in the configuration space obstacle A - B (both at t = 0). This is a ray cast,
-// for any solver. The obstacle is relative to the two shapes' centres, so precision does not depend
-// on their positions in the world.
+// t * direction lies in the configuration space obstacle A - B (both at t = 0). So any ray-cast
+// solver can answer the query, by a cast at this obstacle. The obstacle is relative to the shapes'
+// centres, so precision does not depend on their positions in the world.
 #pragma once
 
 #include "core/cast/cast.h"
@@ -40,16 +40,16 @@ struct ShapeCastResult {
   /// contact, in the world. Miss: the normal of a plane that separates B from A at all times.
   /// Inside: zero.
   CastResult<double> cast;
-  /// Hit or inside: the contact point on A and the contact point on B at the time of impact, in the
-  /// world. The two differ by rounding errors, which are larger for grazing contacts. Inside: a
-  /// common point at t = 0.
+  /// In the world. Hit: the contact points on A and on B, at the time of impact. Inside: a common
+  /// point of both shapes, at t = 0. point_a and point_b differ by rounding errors, which are
+  /// larger for grazing contacts. Miss: zero.
   Vec3<double> point_a = Vec3<double>::Zero();
   Vec3<double> point_b = Vec3<double>::Zero();
 };
 
-/// Finds the first contact with 0 <= t <= t_max. B moves by t * direction. If the direction is zero
-/// or denormal, the status is inside or miss. The status is also inside if the shapes overlap or
-/// touch at the start.
+/// Finds the first contact with 0 <= t <= t_max. B moves by t * direction. The status is inside if
+/// the shapes overlap or touch at the start, for any direction. Otherwise, if the direction is zero
+/// or denormal, the status is miss.
 ShapeCastResult cast_shape(const PreparedPair& pair, const Vec3<double>& direction,
                            double t_max = std::numeric_limits<double>::infinity(),
                            const CastOptions& options = {}, const CastObserver& observer = {});

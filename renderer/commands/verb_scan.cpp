@@ -219,8 +219,8 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .group(heading)
       .takes("MIN,MAX");
   verb.add_option("--noise", options.noise,
-                  "Standard deviations of the range (scene units), of the angle (rad), and of the "
-                  "range per unit of distance; default: 0")
+                  "Standard deviations: RANGE + PER_LENGTH x distance for the range (scene units), "
+                  "ANGLE for the angle (rad); default: 0")
       .group(heading)
       .takes("RANGE[,ANGLE[,PER_LENGTH]]");
   verb.add_option("--dropout", options.scan.dropout, "Probability that a ray returns nothing")
@@ -258,7 +258,7 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .show_default();
   verb.add_option("--resolution", options.scan.resolution,
                   "Minimum distance in scene units between two echoes of a beam\n"
-                  "Used with --divergence: nearer echoes are joined")
+                  "Used with --divergence: echoes closer together than this are joined")
       .group(heading)
       .between(0.0, 1e9)
       .show_default();

@@ -116,7 +116,8 @@ void RenderArguments::add_to(const Verb& verb) {
   verb.add_option(
           "--frames", frames,
           "Frames to render, such as 0..47; #### in the output's name becomes the frame number\n"
-          "With --resume, frames that are listed in NAME-####.png.frames are skipped")
+          "With --resume, frames that are already done are skipped; render lists them in a file "
+          "next to the output, such as x-####.png.frames")
       .takes("A..B");
   verb.add_option("--rate", rate, "Frame rate in frames per second, fps")
       .between(1e-6, 1e6)
