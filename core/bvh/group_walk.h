@@ -18,9 +18,9 @@ struct GroupVisitor {
 };
 
 /// Visits the boxes that rays meet with 0 <= t <= t_max, near boxes first; rounding may add boxes.
-/// Returns the number of visited nodes, or 0 if the rays are no group: they must start at one point
-/// in directions whose components have the same signs, none of them nearly 0. Requires AVX2 and
-/// FMA.
+/// Returns the number of visited nodes, or 0 if the rays do not form a group: they must start at
+/// one point in directions whose components have the same signs, none of them nearly 0. Requires
+/// AVX2 and FMA.
 std::uint64_t walk_group_avx2(const BvhNode* nodes, const SlabRay* rays, std::size_t count,
                               const GroupVisitor& visitor);
 

@@ -172,7 +172,7 @@ class RayGroup {
   }
 
   alignas(32) float inverse_[3][rays_of_group], t_max_[rays_of_group];
-  float origin_near_[3], origin_far_[3];
+  float origin_near_[3], origin_far_[3];  ///< as in SlabNumbers (slab_ray.h), as is near_
   int near_[3];
 };
 

@@ -23,11 +23,13 @@ struct LanesOfSet {
 };
 constexpr LanesOfSet lanes_of_set;
 
+/// Numbers of the lanes in the set, one per lane from the front.
 inline __m256i lanes_of(std::uint32_t set) {
   return _mm256_cvtepu8_epi32(
       _mm_cvtsi64_si128(static_cast<std::int64_t>(lanes_of_set.lanes[set])));
 }
 
+/// Returns the larger of the two keys in the lanes of the set `upper_lanes`, the smaller in others.
 template <int upper_lanes>
 __m256i compared(__m256i keys, __m256i others) {
   return _mm256_blend_epi32(_mm256_min_epi32(keys, others), _mm256_max_epi32(keys, others),

@@ -24,8 +24,8 @@ struct BuildHalves {
   int axis = 0;  ///< axis of the area splitter's split
 };
 
-/// From this depth on, ranges are split into halves of equal count. This gives at most 32 more
-/// levels.
+/// Depth up to which splitters choose freely. From there on, ranges are split into halves of equal
+/// count, which gives at most 32 more levels.
 inline constexpr int free_split_depth = 46;
 
 /// Splits by the surface area heuristic in bins on each axis (Wald, "On fast Construction of

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Casts one ray at a shape by its closed form alone. Reads only the part of the shape's placement
-// that the filter needs.
+// Casts one ray at a shape by its closed form alone, with the filter (core/cast/filter.h). Reads
+// only the part of the shape's placement that the filter needs.
 #pragma once
 
 #include "core/math/ray.h"

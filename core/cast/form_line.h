@@ -32,8 +32,8 @@ template <class W, class Placed>
 
 }  // namespace detail
 
-/// Moves the ray in two steps, each rounded once. The shape is a PreparedShape, or its equivalent
-/// in lanes.
+/// Moves the ray's origin near the form in two steps along the ray, each rounded once. The shape is
+/// a PreparedShape, or its equivalent in lanes.
 template <class W, class Placed>
 [[gnu::always_inline]] inline FormLine<W> form_line(const exact::Form& form, const Placed& shape,
                                                     const Ray<W>& ray) {

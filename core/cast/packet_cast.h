@@ -14,7 +14,7 @@ inline constexpr int packet_lanes = static_cast<int>(32 / sizeof(double));
 
 using PacketNumbers = std::array<double, static_cast<std::size_t>(packet_lanes)>;
 
-/// Rays, coordinate by coordinate. See Ray for units and meaning.
+/// Rays, coordinate by coordinate; units and meaning are those of Ray.
 struct alignas(32) RayPacket {
   std::array<PacketNumbers, 3> origin;
   std::array<PacketNumbers, 3> direction;
@@ -46,7 +46,7 @@ struct alignas(32) CastPacket {
   LaneBits hit = 0, inside = 0, miss = 0;  ///< a requested lane with none of these is exhausted
   PacketNumbers t_base, t_offset, offset_lo, offset_hi;
   std::array<PacketNumbers, 3> normal;
-  PacketNumbers supports;  ///< equals the number of iterations
+  PacketNumbers supports;  ///< number of support calls, which is also that of iterations
   std::array<Path, static_cast<std::size_t>(packet_lanes)> path;
 
   LaneBits found() const { return hit | inside; }
@@ -58,8 +58,9 @@ struct alignas(32) CastPacket {
   void set(int lane, const CastResult<double>& result);
 };
 
-/// The widest instruction set that packets are compiled for and this machine has.
+/// Instruction sets that packets are compiled for.
 enum class InstructionSet : unsigned char { sse2, avx2 };
+/// The widest of these that this machine has.
 InstructionSet best_instruction_set();
 
 /// Same as cast_ray, for the requested lanes. The machine must have the instruction set.

@@ -39,8 +39,8 @@ class PreparedShape {
   }
 
   /// Same, from the parts of a placement. Cheap enough for one call per cast, since references to
-  /// the definition are not counted. `to_inner` is null for the identity. `loss` is as in
-  /// Placement.
+  /// the definition are not counted. `to_inner` is null for the identity. `loss` is
+  /// ShapeDefinition::Placement::loss.
   PreparedShape(const Definition& definition, const TwoFoldVec3<double>& centre,
                 const Mat3<double>* to_inner, double loss)
       : definition_(std::shared_ptr<const Definition>(), &definition),

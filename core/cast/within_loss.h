@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Casts for rays whose position relative to the shape has an error of up to RayNearBall::loss, so
-// that results hold for every parallel ray within that distance. The parameter at which parallel
-// rays enter a convex shape is a convex function of their position. So if rays through the corners
-// of a triangle enter the shape, all rays between them enter no later than the last of the three.
+// Casts for rays whose position relative to the shape has an error of up to RayNearBall::loss
+// (core/query/ray_near_ball.h), so that results hold for all parallel rays within that distance.
+// The parameter at which parallel rays enter a convex shape is a convex function of their position.
+// So if rays through the corners of a triangle enter the shape, all rays between them enter no
+// later than the last of the three.
 #pragma once
 
 #include <algorithm>

@@ -16,14 +16,14 @@ struct AboutMiddle {
   double loss = 0;             ///< error bound of the shape's position, a length
 };
 
-/// Rebuilds the image of `shape` under `map`. Nested maps become one map per innermost shape, and
-/// points are mapped one by one. A shape far from the origin of its own frame is moved to that
-/// origin. Only for custom shapes does this move lose digits and increase `loss`.
+/// Rebuilds the image of `shape` under `map`, around the origin. Nested maps become one map per
+/// innermost shape, and points are mapped one by one. A shape far from the origin of its own frame
+/// is moved to that origin. Only for custom shapes does this move lose digits and increase `loss`.
 AboutMiddle about_middle(const Shape& shape, const ComposedMap& map);
 
-/// Bounds the error of the image of a shape around the origin, caused by rounding of the rotations
-/// in `map`. If the map scales all lengths equally (`similarity` > 0), one rotation is not counted,
-/// since its error is only an epsilon of the shape's size.
+/// Error bound of the image, under `map`, of a shape around the origin. The errors stem from
+/// rounding of the rotations in `map`. If the map scales all lengths equally, by `similarity` > 0,
+/// one rotation is not counted, since its error is only an epsilon of the shape's size.
 double loss_of_turns(const Shape& shape, const ComposedMap& map, double similarity);
 
 /// Returns the shape moved by `way`, which must not be long compared with the shape's size.
@@ -33,7 +33,7 @@ Shape moved_by(const Shape& shape, const Vec3<double>& way);
 struct PointsAboutMiddle {
   std::vector<Vec3<double>> points;
   Vec3<double> middle;
-  double loss = 0;
+  double loss = 0;  ///< error bound of the points' positions
 };
 PointsAboutMiddle points_about_middle(const std::vector<Vec3<double>>& points,
                                       const ComposedMap& map);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Rewrites the Minkowski sum of a box and an ellipsoid along the same axes as a rounded box. In
-// units of the ellipsoid's radii, the ellipsoid is a unit ball, and the sum is a rounded box.
+// Rewrites the Minkowski sum of a box and an ellipsoid along the same axes as an affine image of a
+// rounded box: in units of the ellipsoid's radii, the ellipsoid is a unit ball.
 #pragma once
 
 #include <optional>
@@ -23,8 +23,8 @@ inline Vec3<double> radii_of(const Shape& shape) {
 
 /// Returns the sum of a box and an ellipsoid as an affine image of a rounded box, which solvers
 /// support better. Returns nothing for other shapes. Also returns nothing for sizes outside 2^-16
-/// to 2^16, and for ellipsoids whose radii differ by more than 1:4, since the map multiplies
-/// rounding errors by this ratio.
+/// to 2^16, and for ellipsoids whose radii differ by more than a factor of 4, since the map
+/// multiplies rounding errors by this ratio.
 inline std::optional<Shape> as_rounded_box(const Shape& shape) {
   constexpr double most_slender = 4.0, largest = 0x1p16;
   const auto* sum = std::get_if<MinkowskiSum>(&shape.kind);

@@ -24,7 +24,7 @@ enum class CoreKind : unsigned char {
 
 struct ShapeCore {
   CoreKind kind = CoreKind::point;
-  bool is_round = false;  ///< `other`, and of revolution about the z axis
+  bool is_round = false;  ///< the kind is `other`, and the core is symmetric about the z axis
   /// Number of a hull's points, filled up to a multiple of 8 by copies of a point.
   int count = 0;
   /// Half extents of a box; radii of an ellipsoid; for disks, x and y are the radii of the lower
@@ -45,15 +45,15 @@ struct CoreAndRadius {
   /// Rotation from the core's frame to the shape's. Keeps lengths: the core's sizes include any
   /// scale.
   Mat3<double> turn = Mat3<double>::Identity();
-  Vec3<double> middle = Vec3<double>::Zero();
-  Vec3<double> middle_low = Vec3<double>::Zero();  ///< rounding error of `middle`
+  Vec3<double> middle = Vec3<double>::Zero();      ///< origin of the core's frame
+  Vec3<double> middle_low = Vec3<double>::Zero();  ///< trailing digits of `middle`
   std::shared_ptr<const void> storage;             ///< owns the data that the core points to
 };
 
 /// Splits a shape under a map into core and radius. Rounding radii, affine maps that keep angles,
-/// and Minkowski sums with points and balls become part of the radius or the pose. Under any other
-/// map the core has the kind `other`, except for points, balls, hulls, and boxes and ellipsoids
-/// that are scaled along their axes.
+/// and Minkowski sums with points and balls become part of the radius or the pose. Maps that change
+/// angles give a core of the kind `other`, except for points, balls and hulls, and for boxes and
+/// ellipsoids that are scaled along their axes.
 CoreAndRadius core_and_radius(const Shape& shape, const Affine<double>& map = {});
 
 }  // namespace minkray

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Jets that are sums of ellipsoids, stored as a list. The Minkowski sum of two curved features is
-// not an ellipsoid, so a single ellipsoid can only osculate it. The list represents the sum
-// exactly, with h(n) = c.n + sum |F_k^T n|. Nearly every shape is the hull of finitely many such
-// sums.
+// Jets (local models of a surface, core/support/jet.h) that are sums of ellipsoids, stored as a
+// list. The Minkowski sum of two curved features is not an ellipsoid, so a single ellipsoid can
+// only osculate it. The list represents the sum exactly, by its support function h(n) = c.n +
+// sum |F_k^T n|. Nearly every shape is the hull of finitely many such sums.
 #pragma once
 
 #include <array>
@@ -13,8 +13,8 @@
 
 namespace minkray {
 
-/// The points { c + sum F_k b_k : |b_k| <= 1 }: the part of a shape with the support point in
-/// direction n.
+/// The points { c + sum F_k b_k : |b_k| <= 1 }, for a direction n: the part of a shape that
+/// contains the support point in that direction.
 template <class W>
 struct EllipsoidSum {
   /// Maximum number of ellipsoids. Further ones are joined with the last one, which then osculates.
@@ -24,7 +24,7 @@ struct EllipsoidSum {
   std::array<Mat3<W>, most> F = {Mat3<W>::Zero(), Mat3<W>::Zero(), Mat3<W>::Zero(),
                                  Mat3<W>::Zero()};  ///< columns may be zero
   std::size_t used = 0;                             ///< F is zero from this index on
-  Mask<W> exact = Mask<W>(true);                    ///< the sum is part of the shape
+  Mask<W> exact = Mask<W>(true);                    ///< true: the sum is part of the shape
   Vec3<W> s = Vec3<W>::Zero();                      ///< the shape's support point in direction n
   /// If `exact`, the same as c. Otherwise the centre of the jets, which is the same for all
   /// ellipsoids that osculate one patch.
@@ -164,14 +164,15 @@ EllipsoidSum<W> touching_sum(const Shape& shape, const Vec3<W>& n) {
   return std::visit([&](const auto& kind) { return detail::sum_of_kind<W>(kind, n); }, shape.kind);
 }
 
-/// True if the shape is the hull of exact sums. Tests only a few directions.
+/// True if the shape seems to be the hull of exact sums. Tests only a few directions.
 inline bool has_exact_sums(const Shape& shape) {
   for (int i = 0; i < tilted_directions; ++i)
     if (!touching_sum<double>(shape, tilted_direction<double>(i)).exact) return false;
   return true;
 }
 
-/// True if the shape is a single exact sum without flat summands. Tests only a few directions.
+/// True if the shape seems to be a single exact sum without flat summands. Tests only a few
+/// directions.
 inline bool is_ellipsoid_sum(const Shape& shape) {
   const EllipsoidSum<double> first = touching_sum<double>(shape, tilted_direction<double>(0));
   if (first.used == 0) return false;

@@ -21,17 +21,17 @@ struct Recentred {
 /// Upper bound of the factor by which the map lengthens vectors; for a rotation, 1 up to rounding.
 double stretch_of(const Mat3<double>& linear);
 
-/// Bounds the displacement of a point at this distance from the origin by rounding of a map's
-/// entries. Scales and swaps of axes are exact; other maps may have been computed from a
-/// quaternion.
+/// Bounds how far rounding of the map's entries displaces a point at this distance from the origin.
+/// Scales and swaps of axes are taken as exact; the entries of other maps may have been computed
+/// from a quaternion.
 double loss_of_turning(const Mat3<double>& linear, double distance);
 
 /// Moves a shape if its support points are computed from coordinates much larger than the shape.
 /// Returns nothing for other shapes.
 std::optional<Recentred> recentred(const Shape& shape);
 
-/// Upper bound of the lengths of all vectors that are summed in a support point. For custom shapes,
-/// these are the support points.
+/// Upper bound of the lengths of all vectors that are added up to compute a support point. A custom
+/// shape's support point counts as one vector.
 double largest_coordinate(const Shape& shape);
 
 }  // namespace minkray

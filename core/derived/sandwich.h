@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Makes two meshes from a shape's support mapping alone. A ray meets the outer mesh no later than
 // the shape, and the shape no later than the inner mesh. The inner mesh is the hull of support
-// points; the outer mesh is the intersection of their half-spaces. Half of the directions are
+// points, the outer one the intersection of the half-spaces they bound. Half of the directions are
 // spread evenly; the others are the facet normals of the hull of the first half's support points,
 // so that polytopes are exact.
 #pragma once
@@ -15,6 +15,7 @@
 
 namespace minkray {
 
+/// A closed surface, or a flat polygon, of triangles.
 struct Mesh {
   std::vector<Vec3<double>> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise from outside
@@ -39,7 +40,7 @@ struct SandwichOptions {
 /// inside; `outer` is a box of width `margin`, and rays that miss the box must miss the shape.
 struct Sandwich {
   RoundFrame frame;
-  Vec3<double> centre;  ///< a point well inside, in the frame
+  Vec3<double> centre;  ///< a point well inside the shape, in the frame
   Mesh inner, outer;
 
   int rank() const { return frame.rank; }

@@ -19,8 +19,8 @@ requires SupportMapped<S, T> Bounds<T> bounds_of(const S& shape) {
   return bounds;
 }
 
-/// The ball around the box of `bounds_of`. Padded by a few ulps, so that the ball contains the
-/// shape in spite of rounding.
+/// The ball around the box that bounds_of() returns. Padded by a few ulps, so that the ball
+/// contains the shape in spite of rounding.
 template <class T>
 Ball<T> ball_around(const Bounds<T>& bounds) {
   constexpr T padding = T(1) + T(8) * std::numeric_limits<T>::epsilon();

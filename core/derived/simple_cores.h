@@ -13,7 +13,7 @@ namespace minkray::cores {
 /// Factor by which radii of balls are rounded up, so that the balls contain their cores.
 inline constexpr double padding = 1 + 16 * std::numeric_limits<double>::epsilon();
 
-/// Puts a core at a pose. `loss` is an error bound of the middle.
+/// Puts a core at a pose. `middle` is the origin of the core's frame, and `loss` its error bound.
 inline CoreAndRadius placed(ShapeCore core, const Mat3<double>& turn,
                             const TwoFoldVec3<double>& middle, double loss) {
   core.rounding += loss;

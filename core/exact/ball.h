@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds where a line enters a ball around the origin.
+// Finds where a line enters a ball around the origin. Line and Entry are in core/query/line.h;
+// results are valid only in `open` lanes.
 #pragma once
 
 #include "core/query/line.h"
@@ -26,8 +27,9 @@ template <class W, class S>
   return entry;
 }
 
-/// For lanes in `by_end`: enters the ball at one end of a shape. `p` is the line's point relative
-/// to the ball's centre. Returns the lanes whose line misses the ball.
+/// Finds where the line enters the ball at one end of a shape, in the lanes `by_end`, and updates
+/// `entry` there. `p` is the line's point s relative to the ball's centre. Returns the lanes whose
+/// line misses the ball.
 template <class W>
 [[gnu::always_inline]] inline Mask<W> enter_end(Entry<W>& entry, const Mask<W>& by_end, const W& r,
                                                 const Vec3<W>& p, const Line<W>& line) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finds where a line enters a box around the origin. A slab is the space between two opposite
 // faces. The line enters the box where it enters the last of the three slabs, if it has left no
-// slab before.
+// slab before. Line and Entry are in core/query/line.h; results are valid only in `open` lanes.
 #pragma once
 
 #include "core/query/line.h"

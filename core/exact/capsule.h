@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finds where a line enters a capsule along the z axis: on the cylinder or, if the line enters the
-// infinite cylinder beyond an end, on the ball at that end.
+// infinite cylinder beyond an end, on the ball at that end. Line and Entry are in
+// core/query/line.h; results are valid only in `open` lanes.
 #pragma once
 
 #include "core/exact/ball.h"

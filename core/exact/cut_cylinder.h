@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Finds where a line enters a cylinder around the z axis that is cut by two planes at any angles.
+// Line and Entry are in core/query/line.h; results are valid only in `open` lanes.
 #pragma once
 
 #include "core/exact/form.h"
@@ -27,8 +28,9 @@ struct Cut {
   }
 };
 
-/// Completes a form from the declared sizes of the shape; `form` must have the same sizes with
-/// scaled lengths. Returns no form if the planes cross within the cylinder by more than rounding.
+/// Completes the form (form.h) of a cut cylinder. `declared` are the shape's sizes; form.sizes must
+/// be the same sizes with scaled lengths. Returns an empty form if the planes cross within the
+/// cylinder by more than rounding.
 inline Form cut_cylinder_form(Form form, const FormSizes& declared) {
   const double r = form.sizes[0], below = form.sizes[1], above = form.sizes[2];
   const double *low = &declared[3], *high = &declared[5];

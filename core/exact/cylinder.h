@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Finds where a line enters a cylinder around the z axis. The cylinder is the part of an infinite
-// cylinder between two planes.
+// cylinder between two planes. Line and Entry are in core/query/line.h; results are valid only in
+// `open` lanes.
 #pragma once
 
 #include "core/exact/mantle.h"

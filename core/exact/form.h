@@ -15,8 +15,10 @@ class Polytope;
 /// The form's frame is the shape's frame, moved to the form's middle and scaled by `scale` along
 /// the axes (so that ellipsoids become balls).
 struct Form {
-  FormKind kind = FormKind::none;
-  bool is_scaled = false, is_off_centre = false, is_upside_down = false;
+  FormKind kind = FormKind::none;   ///< none: the shape has no closed form
+  bool is_scaled = false;           ///< `scale` is not (1, 1, 1)
+  bool is_off_centre = false;       ///< `offset` is not zero
+  bool is_upside_down = false;      ///< z is mirrored, so that the larger end is below
   double R = 0;                     ///< radius of a ball around the form, in the form's frame
   double inner_R = 0;               ///< radius of a ball around the form before scaling
   double largest_scale = 1;         ///< the greatest component of `scale`

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Finds where a line enters a frustum around the z axis, with its larger disk below. The frustum is
 // the part of an infinite cone between two planes. A cone is a frustum whose upper disk is a point.
+// `slope`, `sine`, `apex` and R are those of Form (core/exact/form.h); Line and Entry are in
+// core/query/line.h.
 #pragma once
 
 #include "core/exact/nappe.h"

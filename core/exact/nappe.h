@@ -7,13 +7,14 @@
 
 namespace minkray::exact {
 
-/// A line's parameter, greater than all parameters at which lines meet shapes. Products with a
-/// line's coordinates do not overflow.
+/// A parameter greater than all parameters at which lines meet shapes. Products with a line's
+/// coordinates do not overflow.
 template <class W>
 inline constexpr Lane<W> endless = 1 / least_to_square<Lane<W>>;
 
-/// The points with x^2 + y^2 <= slope^2 (apex - z)^2 and z <= apex. R is the form's radius. The
-/// form lies within 2 max(R, apex) of the apex.
+/// The points with x^2 + y^2 <= slope^2 (apex - z)^2 and z <= apex. `apex` is the height of the
+/// cone's tip. R is the radius of a ball around the form, which lies within 2 max(R, apex) of the
+/// tip.
 template <class W>
 struct Nappe {
   Mask<W> hit, miss;       ///< of both nappes, above and below the apex; neither: undecided

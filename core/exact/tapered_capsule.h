@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Finds where a line enters a tapered capsule along the z axis, with its larger ball below: on the
 // cone that touches both balls or, if the line enters the cone beyond an end, on the ball at that
-// end.
+// end. `slope`, `sine`, `apex` and R are those of Form (core/exact/form.h); Line and Entry are in
+// core/query/line.h.
 #pragma once
 
 #include "core/exact/ball.h"

@@ -11,9 +11,9 @@ namespace minkray::exact {
 /// the capsule's z and x axes.
 Form turned_capsule_form(Form form);
 
-/// Finds where lines enter the capsule. The rotation's rounding is less than 10 * 2^-53 of the
-/// capsule's size, and 10 * 2^-53 more for its middle. E of a line in double is at least 16 * 2^-53
-/// of the size.
+/// Finds where lines enter the capsule. Triples the line's error bound E, for the rounding of the
+/// rotation: less than 10 * 2^-53 of the capsule's size, and as much again for its middle. E of a
+/// line in double is at least 16 * 2^-53 of the size.
 template <class W>
 [[gnu::always_inline]] inline Entry<W> enter_turned_capsule(const FormSizes& a, const Line<W>& line,
                                                             const Mask<W>& open) {

@@ -44,8 +44,8 @@ void settle(MeshAttributes& attributes);
 /// Attributes of some triangles, by their numbers, without attributes that no triangle uses.
 MeshAttributes attributes_of(const MeshAttributes& all, std::span<const std::uint32_t> triangles);
 
-/// Appends the attributes of `count` triangles to those of `before` triangles. Material numbers
-/// increase by `first_material`.
+/// Appends the attributes of `count` triangles to those of `before` triangles. Adds
+/// `first_material` to the appended material numbers.
 void append(MeshAttributes& all, std::size_t before, const MeshAttributes& more, std::size_t count,
             std::uint32_t first_material);
 

@@ -12,7 +12,7 @@ struct FaceCorner {
   std::uint32_t vertex = 0, uv = MeshAttributes::none, normal = MeshAttributes::none;
 };
 
-/// Adds triangles, and their attributes, if requested.
+/// Adds triangles, and their attributes, to the given lists. A null list is not filled.
 class TriangleFans {
  public:
   TriangleFans(MeshTriangles* triangles, MeshAttributes* attributes)

@@ -17,7 +17,8 @@ namespace minkray {
 
 class DirectionTable {
  public:
-  /// The hull has rank 2 or 3; `vertices` are its vertices in order.
+  /// The hull must be flat or solid (rank 2 or 3); `vertices` are the points of hull.vertices, in
+  /// the same order.
   DirectionTable(const ConvexHull& hull, std::span<const Vec3<double>> vertices);
 
   /// Returns the index (an integer) of the cell that contains n. NaN gets any cell.

@@ -23,7 +23,7 @@ class FacetMesh {
   class Facet {
    public:
     /// Positions in the facet's row of numbers: the three corners, the three neighbours, the
-    /// normal, and a flag that is 1 if the facet is supported.
+    /// normal, and a flag that is 1 if is_supported().
     static constexpr std::size_t corners = 0, neighbours = 9, normals = 12, supported = 15;
     static constexpr std::size_t size = 16;
 
@@ -58,7 +58,8 @@ class FacetMesh {
     alignas(4 * sizeof(double)) std::array<double, size> numbers_ = {};
   };
 
-  /// The hull has rank 3; `vertices` are its vertices in order.
+  /// The hull must be solid (rank 3); `vertices` are the points of hull.vertices, in the same
+  /// order.
   FacetMesh(const ConvexHull& hull, std::span<const Vec3<double>> vertices);
 
   /// Determines which facets are supported, and by which corner; furthest(n) must return the hull's
@@ -121,7 +122,7 @@ class FacetMesh {
 
   std::vector<Facet> facets_;
   CubeMap directions_{1};
-  std::vector<std::uint32_t> facing_;  ///< by the direction's cell
+  std::vector<std::uint32_t> facing_;  ///< per cell of directions_: index of a facet
 };
 
 }  // namespace minkray

@@ -34,9 +34,8 @@ struct DistanceOptions {
 };
 
 /// `supports(v)` returns SupportPair<T, Dim>, each point relative to its object's centre. x is the
-/// vector from A's centre to B's; `radius` is an upper bound of |a - b|
-/// for points a of A and b of B, each relative to its centre. Points of the result are relative to
-/// A's centre.
+/// vector from A's centre to B's; `radius` is an upper bound of |a - b| for points a of A and b of
+/// B, each relative to its centre. Points of the result are relative to A's centre.
 template <class T, int Dim, class Supports, class G = ProjectionSubalgorithm<T, Dim>,
           class Observer = NoObserver>
 DistanceResult<T, Dim> gjk_distance(const Supports& supports, const Vec<T, Dim>& x, T radius,

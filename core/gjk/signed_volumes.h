@@ -29,7 +29,7 @@ SubalgorithmAnswer<T, Dim> signed_volumes_vertex(const Vertices<T, Dim>& y, std:
   return answer;
 }
 
-/// S1D: uses the shadow of the segment on the coordinate axis where it is longest.
+/// S1D in the paper: uses the shadow of the segment on the coordinate axis where it is longest.
 template <class T, int Dim>
 SubalgorithmAnswer<T, Dim> signed_volumes_segment(const Vertices<T, Dim>& y, std::size_t a,
                                                   std::size_t b) {
@@ -57,7 +57,7 @@ void keep_closer_answer(SubalgorithmAnswer<T, Dim>& best,
   if (best.kept == 0 || candidate.v.squaredNorm() < best.v.squaredNorm()) best = candidate;
 }
 
-/// S2D: uses the shadow of the triangle on the coordinate plane where it is largest.
+/// S2D in the paper: uses the shadow of the triangle on the coordinate plane where it is largest.
 template <class T, int Dim>
 SubalgorithmAnswer<T, Dim> signed_volumes_triangle(const Vertices<T, Dim>& y, std::size_t a,
                                                    std::size_t b, std::size_t c) {
@@ -96,7 +96,7 @@ SubalgorithmAnswer<T, Dim> signed_volumes_triangle(const Vertices<T, Dim>& y, st
   return answer;
 }
 
-/// S3D: uses the cofactors of the tetrahedron's matrix.
+/// S3D in the paper: uses the cofactors of the tetrahedron's matrix.
 template <class T>
 SubalgorithmAnswer<T, 3> signed_volumes_tetrahedron(const Vertices<T, 3>& y) {
   const auto volume = [](const Vec3<T>& i, const Vec3<T>& j, const Vec3<T>& k) {

@@ -55,7 +55,8 @@ struct Affine {
   }
 };
 
-/// Rotation matrix of a quaternion (x, y, z, w), which is normalised first.
+/// Rotation matrix of a quaternion (x, y, z, w), which need not have unit length. The squares of
+/// its components must not leave the range of T.
 template <class T>
 Mat3<T> rotation_matrix(T x, T y, T z, T w) {
   const T s = T(2) / (x * x + y * y + z * z + w * w);
@@ -66,8 +67,8 @@ Mat3<T> rotation_matrix(T x, T y, T z, T w) {
   return m;
 }
 
-/// Same for a quaternion of any length except zero. Very long or short quaternions are scaled
-/// first, since their squares could leave the range of T; unit quaternions are not scaled.
+/// Same for all lengths except zero. Very long or short quaternions are scaled first; unit
+/// quaternions are not scaled.
 template <class T>
 Mat3<T> rotation_matrix_of_any(T x, T y, T z, T w) {
   using std::abs;

@@ -9,6 +9,7 @@ namespace minkray {
 namespace detail {
 
 #if defined(__SSE2__)
+/// Number of columns that a call of transpose() reads from each row.
 inline constexpr std::size_t transposed_columns = 4;
 
 #if defined(__AVX2__)

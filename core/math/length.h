@@ -10,8 +10,8 @@
 
 namespace minkray {
 
-/// True if the squares of all components that affect the length are normal numbers. unit()
-/// (core/math/vec.h) uses the same limits.
+/// True if, in a vector with this squared length, the squares of all components that affect the
+/// length are normal numbers. unit() (core/math/vec.h) uses the same limits.
 template <class T>
 bool is_ordinary_square(T squared) {
   constexpr T smallest = std::numeric_limits<T>::min() / std::numeric_limits<T>::epsilon() * T(16);

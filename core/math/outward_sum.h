@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Converts ends of intervals from sums of two numbers to single numbers, rounded outwards: the new
-// interval contains the old one.
+// Rounds the ends of an interval outwards, from sums of two numbers to single numbers, so that the
+// new interval contains the old one.
 #pragma once
 
 #include <cmath>

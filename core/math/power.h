@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Powers of nonnegative numbers. Results for single numbers and for packets are bit-identical,
 // which the C library's pow does not guarantee: its long double logarithm differs between
-// processors. The relative error is a few epsilon or, if the power is small, larger; the absolute
-// error is then still at most a few epsilon.
+// processors. The relative error is a few epsilon. For small powers the relative error may be
+// larger, but the absolute error is at most a few epsilon.
 #pragma once
 
 #include "core/math/vec.h"

@@ -2,7 +2,7 @@
 // Numbers, vectors and maps with twice the digits ("two-fold"). Each number is stored as an
 // unevaluated sum of two numbers. Used for differences of positions far from the origin. Error-free
 // sums and products are from Dekker, "A Floating-Point Technique for Extending the Available
-// Precision", 1971. A sum of terms of size x has an error of 2^-104 x.
+// Precision", 1971. A sum of terms of size x has an error of about 2^-104 x.
 #pragma once
 
 #include <cmath>
@@ -12,7 +12,7 @@
 
 namespace minkray {
 
-/// The number high + low; low is the rounding error of high.
+/// The number high + low; `low` is what rounding removed from `high`.
 template <class W>
 struct TwoFold {
   W high = W(0), low = W(0);

@@ -44,6 +44,7 @@ struct LeafRay {
   return leaf;
 }
 
+/// Eight numbers of corners, as floats.
 [[gnu::always_inline]] inline __m256 corner_row(const std::uint16_t* row) {
   return _mm256_cvtepi32_ps(
       _mm256_cvtepu16_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(row))));

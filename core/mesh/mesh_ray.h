@@ -55,8 +55,8 @@ void walk_triangles(const TriangleMesh& mesh, const Ray<double>& ray, PartCounts
   });
 }
 
-/// Returns the hit with the least t in [t_min, ray.t_max]; of several with that t, the one of the
-/// triangle with the least number.
+/// Returns the hit with the least t in [t_min, ray.t_max]. If several triangles are hit at this t,
+/// returns the hit of the triangle with the least number.
 PartHit closest_part(const TriangleMesh& mesh, const Ray<double>& ray, double t_min,
                      PartCounts& counts);
 /// True if there is any hit with t in [t_min, ray.t_max].

@@ -41,8 +41,8 @@ inline bool is_wide(const PartHit& hit) {
   return hit.error > wide * hit.t;
 }
 
-/// Same as yields_to, but handles wide hits: a wide hit also yields to another hit if the ray
-/// enters the box of the wide hit's triangle only beyond the other's t plus error.
+/// Same as closest.yields_to(), but handles wide hits: a wide hit also yields to another hit if the
+/// ray enters the box of the wide hit's triangle only beyond the other's t plus error.
 bool yields_to_or_is_wide(const TriangleMesh& mesh, const Ray<double>& ray, const PartHit& closest,
                           const PartHit& hit);
 

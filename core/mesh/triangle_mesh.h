@@ -26,8 +26,8 @@ inline constexpr std::uint32_t no_part = ~std::uint32_t{0};
 /// Defects of a mesh; vertices at the same position count as one. Results are correct in spite of
 /// defects: for example, rays hit the neighbours of a triangle without area.
 struct MeshFaults {
-  std::size_t without_area = 0;
-  std::size_t repeated = 0;    ///< triangles with the same vertices as another
+  std::size_t without_area = 0;  ///< triangles without area
+  std::size_t repeated = 0;      ///< triangles with the same vertices as another
   std::size_t open_edges = 0;  ///< edges that triangles do not use equally often in both directions
   bool is_closed() const { return open_edges == 0; }
 };

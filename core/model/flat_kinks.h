@@ -11,11 +11,11 @@ namespace minkray {
 /// The axis of a flat summand: a direction in which the support point jumps.
 template <class W>
 struct Kink {
-  Mat3<W> F = Mat3<W>::Zero();
+  Mat3<W> F = Mat3<W>::Zero();  ///< the flat summand: the disk { F b : |b| <= 1 }
   Vec3<W> axis = Vec3<W>::Zero();
   Mask<W> here = Mask<W>(false);    ///< the requested direction is exactly the kink's axis
   Mask<W> solved = Mask<W>(false);  ///< the model is hit in that direction
-  Mask<W> tried = Mask<W>(false);
+  Mask<W> tried = Mask<W>(false);   ///< the axis has been a requested direction before
 };
 
 /// Returns the lanes in which all features with a weight have exactly the kink's flat summand.

@@ -13,7 +13,7 @@
 
 namespace minkray {
 
-/// The valid centres of the bodies other than the newest one.
+/// The valid centres of the bodies other than the newest one, which was found last.
 template <class W>
 struct Translates {
   std::array<Vec3<W>, 3> c = {Vec3<W>::Zero(), Vec3<W>::Zero(), Vec3<W>::Zero()};
@@ -30,7 +30,8 @@ struct HullCastHit {
   W height = W(std::numeric_limits<Lane<W>>::infinity());  ///< height of the hull's plane
 };
 
-/// Solves the cast. Points within `rounding` of the ray count as on it.
+/// Solves the cast. Points within `rounding` of the ray count as on it. A candidate for the hit is
+/// a plane that touches one, two or three bodies.
 template <class W, class Body>
 class HullCast {
  public:

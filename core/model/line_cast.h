@@ -34,7 +34,7 @@ struct LineHit {
   W lambda = W(-std::numeric_limits<Lane<W>>::infinity());       ///< rigorous lower bound
   W lambda_above = W(std::numeric_limits<Lane<W>>::infinity());  ///< the model's hit
   Vec3<W> normal = Vec3<W>::Zero();
-  W supports = W(0);
+  W supports = W(0);  ///< number of support calls
 };
 
 /// Selects a where the condition is true, else b, lane by lane.
@@ -164,9 +164,9 @@ Vec3<W> normal_on_ellipsoid(const Vec3<Lane<W>>& radii, const Vec3<W>& s, const 
   return all(some) ? n : select<W>(some, n, Vec3<W>(-r));
 }
 
-/// Returns approximately that normal, as a unit vector, for any shape with these half extents. Used
-/// as the first direction for the support mapping. Extents that are negligible compared with the
-/// largest are increased slightly.
+/// Same as normal_on_ellipsoid, approximately, for any shape with these half extents. Used as the
+/// first direction for the support mapping. Extents that are negligible compared with the largest
+/// are increased slightly.
 template <class W>
 Vec3<W> normal_on_extents(const Vec3<Lane<W>>& half_extents, const Vec3<W>& s, const Vec3<W>& r) {
   using std::max;

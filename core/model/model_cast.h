@@ -9,7 +9,8 @@
 
 namespace minkray {
 
-/// CastResult in lanes. A lane that is neither hit, inside nor miss is exhausted.
+/// CastResult (core/query/result.h) in lanes. A lane that is neither hit, inside nor miss is
+/// exhausted.
 template <class W>
 struct CastLanes {
   Mask<W> hit = Mask<W>(false);
@@ -25,9 +26,9 @@ struct CastLanes {
   W supports = W(0);
 };
 
-/// Casts a ray at a shape whose bounds it meets. The ray is relative to the bounding ball's centre;
-/// half_extents are the bounding box's. make_model(s, r) makes a model of the shape seen from s
-/// along r. Only `castable` lanes are cast.
+/// Casts a ray at a shape. The ray must meet the shape's bounds. The ray is relative to the
+/// bounding ball's centre; half_extents are the bounding box's. make_model(s, r) makes a model of
+/// the shape seen from s along r. Only `castable` lanes are cast.
 template <class W, class MakeModel, class Observer>
 CastLanes<W> model_cast(const MakeModel& make_model, const RayNearBall<W>& near,
                         const Ball<Lane<W>>& ball, const Vec3<Lane<W>>& half_extents,

@@ -11,11 +11,11 @@ enum class ModelKind : unsigned char {
   points,           ///< a polytope
   rounded_points,   ///< a rounded polytope
   translates,       ///< the hull of translates of one ellipsoid
-  gauge,            ///< given by its gauge
+  gauge,            ///< given by its gauge, the scale at which its surface meets a point
   ellipsoid_sum,    ///< a sum of ellipsoids
   smooth,           ///< a smooth surface
   exact_sums,       ///< the hull of finitely many sums of ellipsoids
-  osculating_sums,  ///< any other shape: as exact_sums, but some sums only osculate
+  osculating_sums,  ///< as exact_sums, but some sums only approximate (osculate) the surface
 };
 
 /// Returns the model that suits a shape. Correctness does not depend on this choice: supporting

@@ -39,8 +39,8 @@ class ShapeDefinition {
   /// True if the ball's centre is the origin of the shape's own frame. The centre's position under
   /// a pose is then the translation of the pose.
   bool is_centred() const { return middle_.is_zero(); }
-  /// Excess of the rounding of support points over the rounding of their distance from the ball's
-  /// centre, a length in the inner frame. Includes the rounding of maps that may have moved all
+  /// Additional error bound of support points that are computed from coordinates larger than the
+  /// shape; a length in the inner frame. Includes the rounding of maps that may have moved all
   /// points.
   double support_loss() const { return support_loss_; }
   bool has_large_loss() const {
@@ -75,7 +75,7 @@ class ShapeDefinition {
     if (ball_centre.isZero(0)) return pose.translation;
     return pose.translation + times<double, double>(pose.linear, ball_centre);
   }
-  /// Loss of plain placements that are rotated.
+  /// Placement::loss of plain placements that are rotated.
   double plain_loss() const { return plain_loss_; }
 
   /// True if placements under poses that keep lengths are plain.
@@ -96,6 +96,7 @@ class ShapeDefinition {
   TwoFoldVec3<double> moved_;
   TwoFoldVec3<double> middle_;  ///< the ball's centre in the shape's frame
   double moved_loss_ = 0.0;     ///< bound on the centre's displacement by rounding of maps
+  /// Power of two that scales a very large or small inner shape back to its size; its inverse.
   double up_ = 1.0, down_ = 1.0;
   Ball<double> ball_;
   Vec3<double> half_extents_;

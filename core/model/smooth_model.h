@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The model for smooth shapes, which jets only osculate: the newest jet's ellipsoid, and its
-// translates for other patches that were found in nearly the same direction. Translates touch their
-// supporting planes at their support points. Converges like Newton's method. A step to a lower
-// plane is halved; this helps, since the height where the plane cuts the ray is a concave function
-// of the direction. Support points prove the hit (`settled`).
+// The model for smooth shapes: the ellipsoid of the newest jet, which only osculates the shape, and
+// its translates for other patches that were found in nearly the same direction. Translates touch
+// their supporting planes at their support points. Converges like Newton's method. A step to a
+// lower plane is halved; this helps, since the height where the plane cuts the ray is a concave
+// function of the direction. Support points prove the hit (`settled`).
 #pragma once
 
 #include "core/model/hull_cast.h"

@@ -40,9 +40,9 @@ class SumFeatures {
     return {features_[0].sum.c, features_[1].sum.c, features_[2].sum.c, features_[3].sum.c};
   }
 
-  /// Adds the newest feature; returns true in lanes that already had this feature. Older osculating
-  /// features keep their ellipsoids only if they are from other patches and were found in nearly
-  /// the same direction.
+  /// Adds the newest feature; returns true in lanes that already had this feature. Older features
+  /// that only osculate the surface keep their ellipsoids only if they are from other patches
+  /// (smooth parts of the surface) and were found in nearly the same direction.
   Mask<W> add(const Feature& feature, const Vec3<W>& n) {
     Mask<W> repeated(false);
     for (std::size_t k = 0; k < newest; ++k) {

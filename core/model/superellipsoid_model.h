@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The model of a superellipsoid is the shape itself. Its gauge along the ray is a convex function
-// of one variable, with value 1 where the ray meets the surface. The gauge's gradient there is the
-// normal, and one support call in this direction proves the hit. If the least gauge is above 1, two
-// tangents of the gauge that cross above 1 give a separating plane. docs/forms.md, section 9.
+// The model of a superellipsoid is the shape itself. Its gauge (the scale at which its surface
+// meets a point) is a convex function along the ray, with value 1 where the ray meets the surface.
+// The gradient there is the normal, and one support call in this direction proves the hit. If the
+// least gauge is above 1, two tangents of the gauge that cross above 1 give a separating plane
+// (docs/forms.md, section 9).
 #pragma once
 
 #include "core/model/line_cast.h"

@@ -21,7 +21,7 @@ inline bool is_solid(const ShapeCore& core) {
 /// Returns the signed distance between a solid (a box, or the hull of two disks) and a point p in
 /// the solid's frame; negative inside. Both bounds are the distance. `axis` is the direction of the
 /// shortest translation that moves the point out of the solid. `deeper` is the distance of the test
-/// for other directions (deeper_by).
+/// for other directions (deeper_by() in core_pair.h).
 CoreDistance between_solid_and_point(const ShapeCore& solid, const Vec3<double>& p,
                                      double deeper = 0);
 

@@ -27,6 +27,7 @@ class ContactShape {
   const Mat3<double>& turn() const { return core_and_radius_.turn; }
   /// Origin of the core's frame in the body's frame: the centre of the core.
   const Vec3<double>& middle() const { return core_and_radius_.middle; }
+  /// middle() with twice the digits.
   TwoFoldVec3<double> exact_middle() const {
     return {core_and_radius_.middle, core_and_radius_.middle_low};
   }

@@ -13,8 +13,8 @@ namespace minkray {
 /// AVX2, the same numbers are compared in the same order.
 int furthest_of_hull(const ShapeCore& hull, double x, double y, double z);
 
-/// Returns which of the 64 points from `begin` on are at least that far along the direction, as
-/// bits. The same on every machine, too.
+/// Returns a bit for each of the 64 points from `begin` on: 1 if the point is at least `least` far
+/// along the direction. The same on every machine, too.
 std::uint64_t far_of_hull(const ShapeCore& hull, double x, double y, double z, double least,
                           int begin);
 

@@ -9,10 +9,10 @@
 namespace minkray {
 
 /// Bounds the error of `derivative`, which was computed from `found`, the first contact of the two
-/// motions. The error is zero if the
-/// bodies overlap at time 0, and NaN without contact. The error is infinite on ridges; for two
-/// cores without a radius, since the normal at the contact is unknown; for turns, if the nearest
-/// points may slide along an edge or a face; and if no overlap was proven after the contact.
+/// motions. The error is zero if the bodies overlap at time 0, and NaN without contact. The error
+/// is infinite on ridges; for two cores without a radius, since the normal at the contact is
+/// unknown; for turns, if the nearest points may slide along an edge or a face; and if no overlap
+/// was proven after the contact.
 PairDerivativeError error_of(const ContactShape& a, const RigidMotion& motion_a,
                              const ContactShape& b, const RigidMotion& motion_b,
                              const Impact& found, const PairDerivative& derivative);

@@ -9,8 +9,9 @@
 
 namespace minkray {
 
-/// Four points c of C = B - A that enclose the origin, if found, and the corresponding points a of
-/// A. The polytope (expanding_polytope.h) can start from these points.
+/// Four points c of C = B - A (core_pair.h) that enclose the origin, if found, and the
+/// corresponding points a of A. The search for the depth (expanding_polytope.h) can start from
+/// these points.
 struct Enclosure {
   std::array<Vec3<double>, 4> c, a;
   bool is_found = false;

@@ -21,7 +21,7 @@ class DepthDirection {
   }
 
   const Vec3<double>& direction() const { return direction_; }
-  double gap() const { return gap_; }
+  double gap() const { return gap_; }  ///< gap along direction(): minus the depth
   int supports() const { return query_.result.supports; }
 
   /// Finds four points of C that enclose the origin, which is close to C's surface: three around

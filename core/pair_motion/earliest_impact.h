@@ -8,8 +8,8 @@ namespace minkray {
 
 struct EarliestImpact {
   /// `t_lo` is a lower bound for all bodies: there is no contact with any of them before t_lo. All
-  /// other members are the result for a single body: the body touched first or, if there is no
-  /// contact, a body whose result is undecided or a miss.
+  /// other members are the result for a single body: the body that is touched first. If no contact
+  /// was found, they are the result for an undecided body or else a miss.
   Impact impact;
   std::size_t body = none;  ///< number of that body; none if all results are misses
   static constexpr std::size_t none = ~std::size_t{0};

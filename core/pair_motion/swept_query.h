@@ -161,6 +161,7 @@ struct SweptQuery {
     return true;
   }
 
+  /// True if the bounds of the time are near enough to end the search.
   bool has_met() const { return (result.t_hi - result.t_lo) * speed <= near; }
 };
 

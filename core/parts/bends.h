@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests whether a mesh bends near a point. Triangles in one plane share one normal and do not
-// count.
+// Tests whether a mesh bends near a point: the triangles there do not all lie in one plane.
 #pragma once
 
 #include "core/mesh/triangle_mesh.h"

@@ -23,7 +23,7 @@ class BodyTree {
   /// Number of a box: the body's own box, or that of a node's child. Encodes the node's number and
   /// the child's index.
   using Box = std::uint32_t;
-  static constexpr Box whole = ~Box{0};
+  static constexpr Box whole = ~Box{0};  ///< the body's own box
 
   bool is_leaf(Box box) const { return !mesh() || (inside(box) & BvhNode::leaf) != 0; }
   MiddleBox bounds(Box box) const {
@@ -35,10 +35,11 @@ class BodyTree {
   /// Writes the boxes of a leaf's parts. Returns their number.
   int open_leaf(Box box, EightBoxes& boxes, std::uint32_t* parts) const;
 
-  /// Writes the triangles of a mesh's leaf, relative to the body's middle, mapped by `at` if not
-  /// null.
+  /// Writes the triangles of a mesh's leaf, relative to the body's middle. Maps them by `at`, if
+  /// not null.
   void open_leaf(Box box, EightTriangles& triangles, const Turned* at = nullptr) const;
 
+  /// Corners of a mesh's triangle, relative to the body's middle.
   TriangleCorners triangle(std::uint32_t part) const {
     return {mesh()->corner(part, 0) - middle_, mesh()->corner(part, 1) - middle_,
             mesh()->corner(part, 2) - middle_};

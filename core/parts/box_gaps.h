@@ -8,16 +8,17 @@
 
 namespace minkray {
 
-/// A box given by its middle and half extents. Unless `normal` is 0, the box is also cut by two
-/// planes perpendicular to `normal`.
+/// An axis-aligned box given by its middle and half extents. Unless `normal` is 0, the box is cut
+/// by two planes: only points p with low <= normal . p <= high belong to it.
 struct MiddleBox {
   Vec3<double> middle = Vec3<double>::Zero(), half = Vec3<double>::Zero();
   Vec3<double> normal = Vec3<double>::Zero();
   double low = 0, high = 0;
 };
 
+/// Up to eight boxes, stored coordinate by coordinate for SIMD lanes.
 struct EightBoxes {
-  static constexpr int most = 8;
+  static constexpr int most = 8;  ///< maximum number of boxes
   alignas(32) double middle[3][most];
   alignas(32) double half[3][most];  ///< undefined in unused lanes
   alignas(32) double normal[3][most];
@@ -52,21 +53,21 @@ inline double reach_along(const MiddleBox& box, const Vec3<double>& n) {
   return std::min(by_box, by_slab);
 }
 
-/// Frame of the other box relative to the frame of the eight boxes.
+/// Map from the frame of the other box to the frame of the eight boxes: p -> turn * p + shift.
 struct Turned {
   Mat3<double> turn;
   Vec3<double> shift;
 };
 
-/// A unit vector, in the frame of the eight boxes, that points to the other box. `reach` bounds the
-/// extent of the other box in the opposite direction, from the origin of its own frame.
+/// A direction that is likely to separate the boxes.
 struct KnownDirection {
-  Vec3<double> along;
+  Vec3<double> along;  ///< unit vector towards the other box, in the frame of the eight boxes
+  /// Upper bound of -along . p over the other box's points p, relative to its frame's origin.
   double reach;
 };
 
-/// Lower bounds of the distances, without a margin for rounding. If no axis separates two boxes,
-/// the bound is below 0: minus their overlap along the best axis.
+/// Writes lower bounds of the distances to `gaps`, without a margin for rounding. If no axis
+/// separates two boxes, the bound is below 0: minus their overlap along the best axis.
 void box_gaps(const EightBoxes& boxes, const MiddleBox& other, const Turned& at,
               const KnownDirection* known, double* gaps);
 /// Both functions return the same bits.

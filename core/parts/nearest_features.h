@@ -13,7 +13,7 @@ struct NearestPoints {
   Vec3<double> a = Vec3<double>::Zero(), b = Vec3<double>::Zero();
 };
 
-/// Both functions return the same bits.
+/// Replaces `best` by the nearest points if they are closer. Both functions return the same bits.
 void nearest_features_avx2(const TriangleCorners& a, const TriangleCorners& b, NearestPoints& best);
 void nearest_features_sse2(const TriangleCorners& a, const TriangleCorners& b, NearestPoints& best);
 

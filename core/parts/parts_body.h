@@ -28,7 +28,7 @@ struct PartPair {
   std::uint32_t a = no_part, b = no_part;
 };
 
-/// Bounding box of the body at a rigid pose; for shapes tight up to rounding.
+/// Bounding box of the body at a rigid pose. For shapes, the box is tight up to rounding.
 Bounds<double> bounds_of(const PartsBody& body, const Affine<double>& pose);
 /// Upper bound of the distance of the body's points from the origin of its frame.
 double reach_of(const PartsBody& body);

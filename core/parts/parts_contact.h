@@ -15,7 +15,7 @@ ContactManifold contact_manifold(const PartsBody& a, const Affine<double>& pose_
                                  const PartsBody& b, const Affine<double>& pose_b);
 
 /// Derivative of the distance, for the two nearest parts. If surfaces cross, the derivative is zero
-/// and marked as a ridge.
+/// and marked as a ridge: a pose where the distance has no derivative.
 PairDerivative derivative_of(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
                              const Affine<double>& pose_b);
 /// Same as derivative_at_half_space() for shapes. A mesh is on a ridge if several vertices are

@@ -10,9 +10,9 @@ namespace minkray {
 
 /// Eight triangles in one frame. Normals have unit length, or are 0 for slivers.
 struct EightTriangles {
-  static constexpr int most = 8;
+  static constexpr int most = 8;  ///< maximum number of triangles
   int count = 0;
-  std::uint32_t parts[most];
+  std::uint32_t parts[most];               ///< numbers of the triangles in their mesh
   alignas(32) double corners[3][3][most];  ///< by corner, axis, triangle
   alignas(32) double normals[3][most];
 
@@ -31,7 +31,8 @@ struct EightTriangles {
 };
 
 /// Writes lower bounds of the distances, without a margin for rounding; they may be below 0.
-/// `known`, if not null, is a unit vector from the triangle `one` towards the eight triangles.
+/// `normal` is that of the triangle `one`. `known`, if not null, is a unit vector from `one`
+/// towards the eight triangles.
 void triangle_gaps(const TriangleCorners& one, const Vec3<double>& normal,
                    const EightTriangles& eight, const Vec3<double>* known, double* gaps);
 /// Both functions return the same bits.

@@ -40,6 +40,7 @@ struct PlaneScan {
   std::size_t entered = 0, left = 0;  ///< indices of the two planes
 };
 
+/// Tests the line against all planes.
 void scan_planes_sse2(const PlaneRows& planes, const Line<double>& line, PlaneScan& found);
 /// Same results, bit for bit. Requires AVX2 and FMA, but does not use FMA.
 void scan_planes_avx2(const PlaneRows& planes, const Line<double>& line, PlaneScan& found);

@@ -11,7 +11,7 @@
 
 namespace minkray::exact {
 
-/// Fills in a polytope.
+/// Fills the tables of a polytope: first the triangles, then the planes, then all the rest.
 class Polytope::Maker {
  public:
   Maker(Polytope& made, std::vector<Vec3<double>> vertices)
@@ -170,7 +170,8 @@ class Polytope::Maker {
     return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
   }
 
-  /// Corners counter-clockwise from outside. `twin` has the twin of the half-edge from each corner.
+  /// Corners counter-clockwise from outside. `twin` has, for the half-edge from each corner, its
+  /// twin: the same edge in the neighbouring triangle.
   struct Triangle {
     std::array<std::uint32_t, 3> corner, twin;
   };

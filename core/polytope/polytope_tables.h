@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Tables for walks over a polytope: rows of numbers that the lanes of a packet gather. Links are
+// Tables for walks over a polytope: rows of numbers that the lanes of a packet gather. A half-edge
+// is an edge of one triangle; its twin is the same edge of the neighbouring triangle. Links are
 // indices of half-edges, stored as numbers. Triangle f has the half-edges 3 f, 3 f + 1 and 3 f + 2,
 // counter-clockwise from outside.
 #pragma once

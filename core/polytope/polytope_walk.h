@@ -12,8 +12,8 @@
 namespace minkray::exact {
 
 /// End of a walk. `in_triangle`: the walk ended in a triangle that the line passes through; if
-/// `is_clear` is set, the line passes its edges at more than the rounding. `past_edge`: the walk
-/// ended at an edge of the outline, and the line misses. If neither is set, the walk failed.
+/// `is_clear` is set, the line is further from the triangle's edges than rounding. `past_edge`: the
+/// walk ended at an edge of the outline, and the line misses. If neither is set, the walk failed.
 template <class W>
 struct WalkEnd {
   Mask<W> in_triangle = Mask<W>(false), is_clear = Mask<W>(false), past_edge = Mask<W>(false);

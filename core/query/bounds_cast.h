@@ -66,7 +66,7 @@ template <class W>
 
 /// Casts the open lanes of `bounds` at the bounding ball of radius R; the ray must be relative to
 /// the ball's centre. A ray misses if it passes by the ball, ends before the ball or begins behind
-/// it. If the ray has no direction, or the shape no size, the lane is closed without a miss.
+/// it. If the ray has no direction, or the shape no size, the lane ends neither open nor missed.
 template <class W>
 void cast_at_ball(const RayNearBall<W>& near, Lane<W> R, BoundsCast<W>& bounds) {
   using std::max;

@@ -34,8 +34,9 @@ struct DistanceResult {
   DistanceStatus status = DistanceStatus::exhausted;
   T distance = T(0);  ///< |v|, the distance of the two points: an upper bound, up to rounding
   T lower = T(0);     ///< max v.w/|v|, the gap between two parallel planes
-  /// |v|^2 - v.w, an upper bound of the squared distance of v from v(A - B), the point that v
-  /// approximates (van den Bergen, 2004). May be infinite; 0 if overlapping.
+  /// |v|^2 - v.w, an upper bound of the squared distance of v from v(A - B), the point of A - B
+  /// closest to the origin, which v approximates (van den Bergen, 2004). May be infinite; 0 if
+  /// overlapping.
   T certificate = T(0);
   Vec<T, Dim> point_a = Vec<T, Dim>::Zero();  ///< in A, closest to B; overlapping: in both
   Vec<T, Dim> point_b = Vec<T, Dim>::Zero();  ///< in B, closest to A; overlapping: in both

@@ -37,8 +37,8 @@ struct RayNearBall {
   }
 
   /// True if s lost digits, relative to a shape of radius R, since the ray's origin is far away.
-  /// The error of the first step grows with the distance, and the second step can correct only a
-  /// small error.
+  /// The ray was moved near the shape in two steps (ray_near). The error of the first step grows
+  /// with the distance, and the second step can correct only a small error.
   Mask<W> is_from_afar(Lane<W> R) const {
     using std::abs;
     return (abs(lambda_min) > W(tolerance::far_origin<Lane<W>> * R)) & (W(R) > W(0));
@@ -105,7 +105,7 @@ inline constexpr bool is_two_fold = false;
 template <class C>
 inline constexpr bool is_two_fold<TwoFoldVec3<C>> = true;
 
-/// Returns point - centre with its rounding error.
+/// Returns point - centre with twice the digits.
 template <class W, class C>
 [[gnu::always_inline]] inline TwoFoldVec3<W> way_from(const TwoFoldVec3<C>& centre,
                                                       const Vec3<W>& point) {
@@ -114,9 +114,9 @@ template <class W, class C>
   return way;
 }
 
-/// Takes one centre for all lanes, or one per lane. If the centre is two-fold (has twice the
-/// digits), the ray keeps all digits relative to the centre. Otherwise it is as precise as the
-/// coordinates of points near the centre.
+/// Implements ray_near() below, for one centre for all lanes, or one per lane. If the centre is
+/// two-fold (has twice the digits), the ray keeps all digits relative to the centre. Otherwise it
+/// is as precise as the coordinates of points near the centre.
 template <class W, class Centre>
 [[gnu::always_inline]] inline RayNearBall<W> ray_near_here(const Centre& centre_of_ball,
                                                            const Ray<W>& ray) {
@@ -170,8 +170,9 @@ template <class W, class Centre>
 }
 
 #if defined(__x86_64__)
-/// Uses the fma instruction if the machine has one; otherwise calls a function for each of six fma.
-/// Compiled in one file only, so that compiler flags of other files do not change the bits.
+/// Same as ray_near() below. Uses the fma instruction if the machine has one; otherwise calls a
+/// function for each of the six fma. Compiled in one file only, so that compiler flags of other
+/// files do not change the bits.
 RayNearBall<double> ray_near_with_fma(const Vec3<double>& centre, const Ray<double>& ray);
 RayNearBall<double> ray_near_with_fma(const TwoFoldVec3<double>& centre, const Ray<double>& ray);
 #endif
@@ -200,8 +201,8 @@ requires(LaneOf<W>::count > 1) RayNearBall<W> ray_near(const Vec3<W>& centre, co
   return detail::ray_near_here<W>(centre, ray);
 }
 
-/// Same, in long double, for one ray whose origin is further away than far_origin. Beyond
-/// farthest_origin, even long double has too few digits.
+/// Same, in long double, for one ray whose origin is further away than tolerance::far_origin.
+/// Beyond tolerance::farthest_origin, even long double has too few digits.
 inline RayNearBall<double> ray_near_from_afar(const TwoFoldVec3<double>& centre,
                                               const Ray<double>& ray) {
   using Finer = long double;

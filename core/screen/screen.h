@@ -61,11 +61,11 @@ struct alignas(32) Screened {
 
 /// Arrays of rays and instances. Pairs to screen are given as indices into these arrays.
 struct ScreenList {
-  const char* rays;    ///< Ray<double>
-  std::size_t stride;  ///< distance between rays in bytes
-  const InstancePlace* places;
-  const Screen* screens;  ///< indexed by body
-  const float* limits;    ///< indexed by ray: hits at larger t are ignored
+  const char* rays;             ///< Ray<double>
+  std::size_t stride;           ///< distance between rays in bytes
+  const InstancePlace* places;  ///< indexed by instance
+  const Screen* screens;        ///< indexed by InstancePlace::body
+  const float* limits;          ///< indexed by ray: hits at larger t are ignored
 };
 
 /// One bit per lane. `open`: the lane may hit up to its limit. `sure`: the lane certainly hits.
@@ -73,7 +73,8 @@ struct ScreenBits {
   std::uint32_t open, sure;
 };
 
-/// Screens eight pairs, all of one kind other than `none`; requires AVX2 and FMA.
+/// Screens eight pairs, whose shapes all have the same kind other than `none`; requires AVX2 and
+/// FMA.
 ScreenBits screen_avx2(FormKind kind, const ScreenList& list, const std::uint32_t* rays,
                        const std::uint32_t* instances, Screened& answers);
 

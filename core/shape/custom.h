@@ -110,8 +110,8 @@ struct Custom {
     }
   }
 
-  /// Returns the ellipsoid around the inner point with the same derivative; a single point if the
-  /// source has no derivatives.
+  /// Returns the ellipsoid around middle() whose support point has the same derivative; a single
+  /// point if the source has no derivatives.
   template <class W>
   Jet<W> jet(const Vec3<W>& n) const {
     if (!source->has_jets()) return PointJet<W>{support(n)};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// An affine map for support mappings: s_{MC+t}(n) = M s_C(M^T n) + t.
+// An affine map for support mappings: s_{MC+t}(n) = M s_C(M^T n) + t, where s_C is the support
+// mapping of the shape C, and MC + t its image.
 #pragma once
 
 #include "core/math/affine.h"

@@ -14,6 +14,7 @@ enum class SurfaceKind : unsigned char {
   mixed,       ///< several patches; some jets only osculate
 };
 
+/// Number of directions that tilted_direction() gives.
 inline constexpr int tilted_directions = 27;
 
 /// Directions to a cube's faces, edges and corners, slightly tilted, since the exact directions are

@@ -27,14 +27,15 @@ struct alignas(32) Block {
   /// Indexed by axis and ray: the direction minus the middle direction, and 1 / direction, which is
   /// never infinite.
   float delta[3][all_rays], inverse[3][all_rays];
-  double origin[4], middle[4];
+  double origin[4], middle[4];  ///< the common origin; the middle direction
   double middle_squared;
   double widest;  ///< greatest length of a direction minus the middle direction
   /// The origin rounded up and down to float, and bounds of `inverse` over all rays.
   float above[3], below[3];
   float inverse_near[3], inverse_far[3];
+  /// For axes with directions of both signs (`mixed`): the inverses closest to zero of each sign.
   float least_up[3], least_down[3];
-  bool down[3], mixed[3];
+  bool down[3], mixed[3];  ///< by axis: some directions go down; some go up and some down
 };
 
 __m256d load(const double* from) {

@@ -10,9 +10,9 @@
 
 namespace minkray {
 
-/// The axes of the body's frame are those of the definition's inner frame (see PreparedShape). The
-/// origin of the body's frame is that of the shape's own frame if the body is plain; otherwise the
-/// centre of the inner ball.
+/// The axes of the body's frame are those of the definition's inner frame, the frame of the shape
+/// without its outer transforms (ShapeDefinition). The origin is that of the shape's own frame if
+/// `is_plain`; otherwise the centre of the inner shape's bounding ball.
 struct InstanceBody {
   std::shared_ptr<const ShapeDefinition> definition;
   std::uint32_t number = 0;                    ///< number of the definition

@@ -15,8 +15,8 @@ namespace minkray {
 
 template <class T>
 struct Movement {
-  Vec3<T> shift = Vec3<T>::Zero();
-  T angle = T(0);  ///< in radians, by the right-hand rule
+  Vec3<T> shift = Vec3<T>::Zero();  ///< displacement of the pivot from time 0 to time 1
+  T angle = T(0);  ///< turn from time 0 to time 1 in radians, by the right-hand rule
   Vec3<T> axis = Vec3<T>::UnitZ();
   Vec3<T> pivot = Vec3<T>::Zero();  ///< position at time 0
 

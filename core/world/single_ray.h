@@ -22,7 +22,7 @@ struct SingleWorld {
 struct SingleRay {
   const Ray<double>* ray;
   SlabRay slabs;
-  std::uint32_t skip;
+  std::uint32_t skip;  ///< instance that the ray ignores, or no_instance
   RayKinds kinds;
   /// Upper limit of t. When a hit is certain, the limit is lowered to that hit's upper bound.
   float limit;

@@ -45,10 +45,11 @@ class World {
   explicit World(Instances instances, const CastOptions& options = {},
                  BvhBuild build = BvhBuild::quality);
 
-  /// Returns the first instance that the ray hits with 0 <= t <= t_max; of several at the same t,
-  /// the one with the least index. `skip` is the instance on whose surface the ray starts: a convex
-  /// shape is ignored, and a mesh is ignored very near the ray's origin (leaving_mesh). A cast that
-  /// does not converge is neither a hit nor a miss; check `counts.exhausted`.
+  /// Returns the first instance that the ray hits with 0 <= t <= t_max. If several are hit at the
+  /// same t, returns the one with the least index. `skip` is the instance on whose surface the ray
+  /// starts: a convex shape is ignored, and a mesh is ignored very near the ray's origin
+  /// (leaving_mesh). A cast that does not converge is neither a hit nor a miss; check
+  /// `counts.exhausted`.
   WorldHit closest_hit(const Ray<double>& ray, QueryCounts& counts,
                        std::uint32_t skip = no_instance, double time = 0) const {
     return closest_hit(WorldRay{ray, skip, time}, counts);
