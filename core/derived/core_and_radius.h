@@ -24,7 +24,7 @@ enum class CoreKind : unsigned char {
 
 struct ShapeCore {
   CoreKind kind = CoreKind::point;
-  bool is_round = false;  ///< the kind is `other`, and the core is symmetric about the z axis
+  bool is_round = false;  ///< kind `other`, and a body of revolution about the z axis
   /// Number of a hull's points, filled up to a multiple of 8 by copies of a point.
   int count = 0;
   /// Half extents of a box; radii of an ellipsoid; for disks, x and y are the radii of the lower

@@ -11,7 +11,7 @@ namespace minkray {
 
 /// A corner is at origin + number / scale, to within half a unit and the rounding of a double.
 struct alignas(64) MeshLeaf {
-  static constexpr int most = 8;
+  static constexpr int most = 8;  ///< maximum number of triangles
 
   std::uint16_t corners[3][3][most];  ///< by corner, axis, triangle
   float origin[3];                    ///< least corner of the leaf's cube, in the mesh's frame

@@ -19,8 +19,8 @@ using TriangleCorners = std::array<Vec3<double>, 3>;
 
 /// Order in which a ray meets the planes of two triangles, neither plane parallel to the ray: -1 if
 /// the ray meets the first plane first, 1 if the second. If the ray meets both planes at one point,
-/// the order is that of the moved ray; 0 if the planes are the same. Exact unless, after division of
-/// the coordinates by the largest one, a product of six of them leaves the range of double.
+/// the order is that of the moved ray; 0 if the planes are the same. Exact unless, after division
+/// of the coordinates by the largest one, a product of six of them leaves the range of double.
 int order_along(const Ray<double>& ray, const TriangleCorners& first,
                 const TriangleCorners& second);
 

@@ -11,10 +11,10 @@ namespace minkray {
 /// The hit on the hull of sums of ellipsoids.
 template <class W>
 struct SumsHit {
-  Vec3<W> m = Vec3<W>::Zero();
-  W height = W(0);
-  Mask<W> certain = Mask<W>(false);
-  Mask<W> exact = Mask<W>(false);  ///< all carriers belong to the shape
+  Vec3<W> m = Vec3<W>::Zero();       ///< normal at the hit
+  W height = W(0);                   ///< z of the hit, in the ray's frame
+  Mask<W> certain = Mask<W>(false);  ///< the hit is that of the model, up to rounding
+  Mask<W> exact = Mask<W>(false);    ///< all carriers belong to the shape
   std::array<W, 4> weights = {W(0), W(0), W(0), W(0)};
 };
 

@@ -54,8 +54,8 @@ class ContactShape {
 
 /// Pose of a core in the world.
 struct PlacedCore {
-  Mat3<double> turn;  ///< rotation from the core's frame to the world
-  Vec3<double> middle;
+  Mat3<double> turn;    ///< rotation from the core's frame to the world
+  Vec3<double> middle;  ///< origin of the core's frame, in the world
 };
 
 /// Returns the rotation from the core's frame to the world.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tests whether a mesh bends near a point: the triangles there do not all lie in one plane.
+// Tests whether a mesh bends near a point: triangles there have different normals.
 #pragma once
 
 #include "core/mesh/triangle_mesh.h"

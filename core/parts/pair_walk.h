@@ -43,8 +43,8 @@ class PairWalk {
 
   /// Calls visit(part_a, part_b) for pairs until it returns true. key(gap, box_a, box_b) must be a
   /// lower bound of every value that a call of visit() can find for parts in these two boxes. For
-  /// boxes that overlap, the key must be below 0. Omits pairs whose key is above limit(). Returns the least key of the omitted pairs,
-  /// or 0 after a visit that returned true.
+  /// boxes that overlap, the key must be below 0. Omits pairs whose key is above limit(). Returns
+  /// the least key of the omitted pairs, or 0 after a visit that returned true.
   template <class Key, class Limit, class Visit>
   double run(const Key& key, const Limit& limit, const Visit& visit) {
     return run_leaves(key, limit, [&](BodyTree::Box a, BodyTree::Box b) {

@@ -14,9 +14,10 @@ namespace minkray {
 /// the status is overlapping, and value and both bounds are 0, since no depth is computed. Only
 /// closed meshes can contain bodies. If surfaces cross, the points lie on two crossing parts, and
 /// the normal is that of a crossed face. If one body is inside the other and no surfaces cross,
-/// both points are the same point of the inner body. The poses must be rigid. The search begins with the pair of parts
-/// `first`. If the bodies have moved little, the pair of the last query saves much of the search;
-/// any other pair only costs time.
+/// both points are the same point of the inner body. The poses must be rigid. The search begins
+/// with the pair of parts `first`. If the bodies have moved little, the pair of the last query
+/// saves much of the search; any other pair only costs time. Writes the nearest or crossing parts
+/// to `parts`, if not null.
 SignedDistance signed_distance(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
                                const Affine<double>& pose_b,
                                const SignedDistanceOptions& options = {}, PartPair* parts = nullptr,

@@ -9,7 +9,7 @@
 namespace minkray {
 
 /// Returns the first contact at times from 0 to t_max. The status is `inside` if the bodies overlap
-/// at time 0.
+/// at time 0. Writes the two parts of the result to `parts`, if not null.
 Impact first_impact(const PartsBody& a, const RigidMotion& motion_a, const PartsBody& b,
                     const RigidMotion& motion_b, double t_max, const ImpactOptions& options = {},
                     PartPair* parts = nullptr);

@@ -14,7 +14,8 @@ W plane_of(const PolytopeTables& of, const W& edge) {
   return lookup(edge, [&](std::size_t e) { return static_cast<double>(of.plane_of[e]); });
 }
 
-/// A row of the table of planes.
+/// A row of the table of planes: normal . x = offset, and the depth of the triangles' corners below
+/// the plane.
 template <class W>
 struct PlaneRow {
   Vec3<W> normal;

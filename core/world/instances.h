@@ -232,7 +232,8 @@ class Instances {
     bool is_zero() const { return loss == 0 && centre.isZero(0); }
   };
 
-  /// Map of an instance, and the index of the definition's body that the instance uses.
+  /// Map of an instance, and the index in Defined::bodies (`which`) of the body that the instance
+  /// uses.
   struct Placed {
     std::size_t which = 0;
     TrailingDigits digits = {};
@@ -264,8 +265,8 @@ class Instances {
   std::vector<InstanceBody> bodies_;
   std::vector<Screen> screens_;  ///< per body
   FirstTouchVector<InstancePlace> places_;
-  FirstTouchVector<TrailingDigits> digits_;  ///< per instance; empty if all are zero
-  std::unordered_map<std::uint32_t, Rest> rests_;
+  FirstTouchVector<TrailingDigits> digits_;               ///< per instance; empty if all are zero
+  std::unordered_map<std::uint32_t, Rest> rests_;         ///< by instance; absent if zero
   std::unordered_map<std::uint32_t, Mat3<double>> wide_;  ///< maps that do not fit in float
   std::vector<Movement<double>> movements_;  ///< per instance; empty if all are at rest
   FirstTouchVector<Bounds<float>> boxes_;
