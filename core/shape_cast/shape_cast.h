@@ -48,8 +48,8 @@ struct ShapeCastResult {
 };
 
 /// Finds the first contact with 0 <= t <= t_max. B moves by t * direction. The status is inside if
-/// the shapes overlap or touch at the start, for any direction. Otherwise, if the direction is zero
-/// or denormal, the status is miss.
+/// the shapes overlap or touch at the start. Otherwise, a direction of zero gives a miss. A
+/// denormal direction may give exhausted, since the contact's t may overflow.
 ShapeCastResult cast_shape(const PreparedPair& pair, const Vec3<double>& direction,
                            double t_max = std::numeric_limits<double>::infinity(),
                            const CastOptions& options = {}, const CastObserver& observer = {});
