@@ -77,8 +77,7 @@ void map_direction(const PosedMesh& posed, const Ray<double>& ray, double most, 
 /// False if numbers of the mapped ray are too large, or if its direction is zero.
 bool is_usable(const Ray<double>& near) {
   const double size = near.direction.cwiseAbs().maxCoeff();
-  return size > 0 && size <= largest_number &&
-         near.origin.cwiseAbs().maxCoeff() <= largest_number;
+  return size > 0 && size <= largest_number && near.origin.cwiseAbs().maxCoeff() <= largest_number;
 }
 
 double t_min_of(const PosedMesh& posed, const Ray<double>& near, bool leaves) {

@@ -34,7 +34,8 @@ World::World(Instances instances, const CastOptions& options, BvhBuild build)
 
 void World::take_boxes_of_meshes(const FirstTouchVector<Bounds<float>>& boxes) {
   boxes_of_meshes_.clear();
-  for (const PosedMesh& mesh : instances_.meshes()) boxes_of_meshes_.push_back(boxes[mesh.instance]);
+  for (const PosedMesh& mesh : instances_.meshes())
+    boxes_of_meshes_.push_back(boxes[mesh.instance]);
 }
 
 /// The BVH contains all shapes that a ray can hit first.

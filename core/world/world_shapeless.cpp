@@ -94,8 +94,8 @@ class Rounds {
     for (int axis = 0; axis < 3; ++axis) {
       const float corners[2] = {box.lower[axis], box.upper[axis]};
       const float in = (corners[ray.near[axis]] - ray.origin_near[axis]) * ray.inverse_near[axis],
-                  out = (corners[1 - ray.near[axis]] - ray.origin_far[axis]) *
-                        ray.inverse_far[axis];
+                  out =
+                      (corners[1 - ray.near[axis]] - ray.origin_far[axis]) * ray.inverse_far[axis];
       enter = in > enter ? in : enter;  // NaN does not count
       leave = out < leave ? out : leave;
     }

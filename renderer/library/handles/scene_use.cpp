@@ -57,10 +57,9 @@ constexpr bool has_barrier_for_all = false;
 void barrier_for_all() {
 #if defined(__linux__)
   // A forked process may have to register again.
-  if (has_barrier_for_all &&
-      (membarrier(MEMBARRIER_CMD_PRIVATE_EXPEDITED) ||
-       (membarrier(MEMBARRIER_CMD_REGISTER_PRIVATE_EXPEDITED) &&
-        membarrier(MEMBARRIER_CMD_PRIVATE_EXPEDITED))))
+  if (has_barrier_for_all && (membarrier(MEMBARRIER_CMD_PRIVATE_EXPEDITED) ||
+                              (membarrier(MEMBARRIER_CMD_REGISTER_PRIVATE_EXPEDITED) &&
+                               membarrier(MEMBARRIER_CMD_PRIVATE_EXPEDITED))))
     return;
 #endif
   std::atomic_thread_fence(std::memory_order_seq_cst);
