@@ -2,7 +2,8 @@
 // Rays prepared for slab tests against eight boxes of floats. Tests are padded (Ize, "Robust BVH
 // Ray Traversal", 2013), so rounding never loses a box that the exact ray meets. The float origin
 // is rounded so that near planes come earlier and far planes later. The parameter is measured in
-// steps: t times a power of two that makes the direction's largest component about 1.
+// steps: t is multiplied, and the direction divided, by a power of two, so that the direction's
+// largest component is about 1.
 #pragma once
 
 #include <algorithm>

@@ -47,9 +47,9 @@ class World {
 
   /// Returns the first instance that the ray hits with 0 <= t <= t_max. If several are hit at the
   /// same t, returns the one with the least index. `skip` is the instance on whose surface the ray
-  /// starts: a convex shape is ignored, and a mesh is ignored very near the ray's origin
-  /// (leaving_mesh). A cast that does not converge is neither a hit nor a miss; check
-  /// `counts.exhausted`.
+  /// starts: if it is a convex shape, it is ignored; if it is a mesh, it is ignored only very near
+  /// the ray's origin (leaving_mesh). A cast that does not converge is neither a hit nor a miss;
+  /// check `counts.exhausted`.
   WorldHit closest_hit(const Ray<double>& ray, QueryCounts& counts,
                        std::uint32_t skip = no_instance, double time = 0) const {
     return closest_hit(WorldRay{ray, skip, time}, counts);
@@ -82,7 +82,7 @@ class World {
   }
 
   /// Moves all instances: the i-th to pose_of(i). With movement_of, the i-th then moves along
-  /// movement_of(i) while time goes from 0 to 1. Several threads call both functions at once.
+  /// movement_of(i) while time goes from 0 to 1. Calls both from several threads at once.
   /// Refits the BVH, or rebuilds it if its expected cost is 1.5 times that after the last build.
   void pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
                 const std::function<Movement<double>(std::size_t)>& movement_of = {});

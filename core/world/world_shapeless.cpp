@@ -17,14 +17,9 @@ namespace {
 /// Least number of rays to trace together; fewer are faster one by one.
 constexpr std::size_t least_together = 4;
 
-/// Largest number of meshes, per ray, for tracing rays together: with more, most meshes are met by
-/// single rays.
-constexpr std::size_t most_meshes_per_ray = 4;
-
-/// True if rays are traced at meshes together.
-bool go_together(std::size_t rays, std::size_t meshes) {
-  return rays >= least_together && meshes > 0 && meshes <= most_meshes_per_ray * rays;
-}
+/// Largest number of meshes for tracing rays in different directions together: with more, single
+/// rays are as fast.
+constexpr std::size_t most_meshes = 4;
 
 /// Rounds in which rays are cast at meshes: in each round, each ray is cast at the next mesh whose
 /// box it meets, near boxes first, and the rays at the same mesh are cast together.
@@ -197,7 +192,8 @@ bool World::blocked_by_shapeless(const WorldRay& ray, QueryCounts& counts) const
 
 void World::closest_shapeless(const RaySpan& rays, std::span<WorldHit> closest,
                               std::span<std::uint8_t> is_exhausted, QueryCounts& counts) const {
-  const bool are_together = has_screen() && go_together(rays.size(), instances_.meshes().size());
+  const std::size_t meshes = instances_.meshes().size();
+  const bool are_together = has_screen() && rays.size() >= least_together && meshes > 0;
   std::ranges::fill(is_exhausted, std::uint8_t{0});
   const bool has_half_spaces = !instances_.half_spaces().empty();
   for (std::size_t i = 0; (has_half_spaces || !are_together) && i < rays.size(); ++i) {
@@ -242,21 +238,30 @@ void World::closest_shapeless(const RaySpan& rays, std::span<WorldHit> closest,
   };
   const auto count = static_cast<std::uint32_t>(rays.size());
   std::vector<std::uint32_t> numbers;
-  if (instances_.meshes().size() == 1) {  // the mesh's traversal tests its box first
+  if (meshes == 1) {  // the mesh's traversal tests its box first
     numbers.resize(count);
     std::iota(numbers.begin(), numbers.end(), 0u);
     return cast_at(0, numbers);
   }
   slabs.resize(count);
-  make_slabs_avx2(rays.data(), rays.stride(), count, slabs.data());
-  for (std::uint32_t i = 0; has_half_spaces && i < count; ++i)
-    if (closest[i].found()) slabs[i].numbers.t_max = slabs[i].limit(closest[i].cast.t());
-  std::uint32_t waiting = 0;  ///< rays from here on wait for rounds
-  const auto go_round_up_to = [&](std::uint32_t end) {
+  const auto make_slabs = [&](std::uint32_t first, std::uint32_t end) {
+    make_slabs_avx2(rays.part(first, end - first).data(), rays.stride(), end - first,
+                    slabs.data() + first);
+    for (std::uint32_t i = first; has_half_spaces && i < end; ++i)
+      if (closest[i].found()) slabs[i].numbers.t_max = slabs[i].limit(closest[i].cast.t());
+    return std::span(slabs).subspan(first, end - first);
+  };
+  std::uint32_t waiting = 0;  ///< rays from here on are not cast yet
+  const auto cast_up_to = [&](std::uint32_t end) {
     const std::uint32_t first = std::exchange(waiting, end);
     if (first >= end) return;
-    Rounds rounds(mesh_boxes_, boxes_of_meshes_, std::span(slabs).subspan(first, end - first),
-                  counts);
+    for (std::uint32_t i = first; meshes > most_meshes && i < end; ++i) {
+      const std::uint64_t before = counts.exhausted;
+      closer_mesh(rays[i], closest[i], counts);
+      if (counts.exhausted > before) is_exhausted[i] = 1;
+    }
+    if (meshes > most_meshes) return;
+    Rounds rounds(mesh_boxes_, boxes_of_meshes_, make_slabs(first, end), counts);
     const auto visit = [&](std::uint32_t mesh, std::span<const std::uint32_t> of_round) {
       numbers.clear();
       for (const std::uint32_t i : of_round) numbers.push_back(first + i);
@@ -268,28 +273,31 @@ void World::closest_shapeless(const RaySpan& rays, std::span<WorldHit> closest,
   for (std::uint32_t first = 0; first < count; first += rays_of_group) {
     const std::uint32_t end = std::min<std::uint32_t>(first + rays_of_group, count);
     if (!may_be_group(rays.part(first, end - first))) continue;
-    auto visit = [&](std::uint32_t mesh, std::uint32_t of_group) {
+    auto visit = [&](std::uint32_t mesh, std::uint32_t in) {
       numbers.clear();
-      for (; of_group != 0; of_group &= of_group - 1)
-        numbers.push_back(first + static_cast<std::uint32_t>(std::countr_zero(of_group)));
+      for (; in != 0; in &= in - 1)
+        numbers.push_back(first + static_cast<std::uint32_t>(std::countr_zero(in)));
       cast_at(mesh, numbers);
     };
-    const auto plain = [](void* context, std::uint32_t mesh, std::uint32_t of_group) {
-      (*static_cast<decltype(visit)*>(context))(mesh, of_group);
+    const auto plain = [](void* context, std::uint32_t mesh, std::uint32_t in) {
+      (*static_cast<decltype(visit)*>(context))(mesh, in);
     };
-    const std::uint64_t nodes = walk_group_avx2(mesh_boxes_.nodes.data(), slabs.data() + first,
-                                                end - first, {plain, &visit});
+    const std::span<const SlabRay> of_group = make_slabs(first, end);
+    const std::uint64_t nodes =
+        walk_group_avx2(mesh_boxes_.nodes.data(), of_group.data(), end - first, {plain, &visit});
     if (nodes == 0) continue;
     counts.nodes += nodes;
-    go_round_up_to(first);
+    cast_up_to(first);
     waiting = end;
   }
-  go_round_up_to(count);
+  cast_up_to(count);
 }
 
 void World::blocked_by_shapeless(const RaySpan& rays, std::span<std::uint8_t> met,
                                  QueryCounts& counts) const {
-  const bool are_together = has_screen() && go_together(rays.size(), instances_.meshes().size());
+  const std::size_t meshes = instances_.meshes().size();
+  const bool are_together =
+      has_screen() && rays.size() >= least_together && meshes > 0 && meshes <= most_meshes;
   std::ranges::fill(met, std::uint8_t{0});
   const bool has_half_spaces = !instances_.half_spaces().empty();
   for (std::size_t i = 0; (has_half_spaces || !are_together) && i < rays.size(); ++i) {
@@ -313,7 +321,7 @@ void World::blocked_by_shapeless(const RaySpan& rays, std::span<std::uint8_t> me
     counts.add_parts(parts);
   };
   const auto is_open = [&](std::uint32_t i) { return met[i] == 0; };
-  if (instances_.meshes().size() == 1) {
+  if (meshes == 1) {
     std::vector<std::uint32_t> numbers;
     for (std::uint32_t i = 0; i < rays.size(); ++i)
       if (is_open(i)) numbers.push_back(i);
