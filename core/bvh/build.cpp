@@ -24,7 +24,7 @@ struct ChildRanges {
   std::size_t count = 0;
 
   /// Returns the index of the range with the greatest weight, of those for which may_be(range) is
-  /// true; `count` if there is none.
+  /// true. Returns `count` if may_be is false for all ranges.
   template <class MayBe, class Weight>
   std::size_t heaviest(const MayBe& may_be, const Weight& weight) const {
     std::size_t best = count;

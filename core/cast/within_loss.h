@@ -2,8 +2,8 @@
 // Casts for rays whose position relative to the shape has an error of up to RayNearBall::loss
 // (core/query/ray_near_ball.h), so that results hold for all parallel rays within that distance.
 // The parameter at which parallel rays enter a convex shape is a convex function of their position.
-// So if rays through the corners of a triangle enter the shape, all rays between them enter no
-// later than the last of the three.
+// So if rays through the corners of a triangle enter the shape, all rays between them enter it, at
+// the t of the last of the three or before.
 #pragma once
 
 #include <algorithm>

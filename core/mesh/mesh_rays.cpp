@@ -9,7 +9,7 @@ namespace minkray {
 namespace {
 
 /// Fewer rays are faster one by one.
-constexpr std::size_t least_many = 4, least_group = 12;
+constexpr std::size_t least_many = 4;
 
 /// Calls many(from, count) for rays that suit lanes, one(i) for the others.
 template <class Many, class One>
@@ -33,14 +33,6 @@ void split_by_suitability(const TriangleMesh& mesh, std::span<const PartRay> ray
 /// streams.
 constexpr std::size_t groups_passed_over = 7;
 
-/// True if the first and the last ray have the same origin and similar directions.
-bool may_be_group(const PartRay* rays, std::size_t count) {
-  const Ray<double>&first = rays[0].ray, &last = rays[count - 1].ray;
-  if (first.origin != last.origin) return false;
-  const double size = first.direction.cwiseAbs().maxCoeff();
-  return (last.direction - first.direction).cwiseAbs().maxCoeff() <= 0.25 * size;
-}
-
 /// Casts groups of neighbours with similar directions, and streams of the rays between them.
 void closest_of_many(const MeshView& view, const PartRay* rays, std::size_t count, PartHit* hits,
                      PartCounts& counts) {
@@ -56,7 +48,9 @@ void closest_of_many(const MeshView& view, const PartRay* rays, std::size_t coun
       --passed_over;
       continue;
     }
-    if (in_group < least_group || !may_be_group(rays + from, in_group)) continue;
+    if (in_group < least_rays_of_group ||
+        !may_form_group(rays[from].ray, rays[from + in_group - 1].ray))
+      continue;
     const GroupResult result =
         closest_parts_of_group_avx2(view, rays + from, in_group, hits + from, counts);
     if (result == GroupResult::none) continue;

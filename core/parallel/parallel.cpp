@@ -78,7 +78,7 @@ void in_arena(int threads, const std::function<void()>& work) {
   });
 }
 
-/// Calls `work` in the arena of this thread or, if there is none, in one of the idle arenas.
+/// Calls `work` in the arena of this thread. If the thread has no arena, calls it in an idle one.
 void in_some_arena(const std::function<void()>& work) {
   const bool is_worker = tbb::this_task_arena::current_thread_index() > 0;
   if (has_called || is_worker) return work();

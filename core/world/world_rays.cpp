@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Chooses how rays are traced: neighbouring rays with similar directions as blocks, others as a
 // stream, few rays one by one.
+#include "core/bvh/group_walk.h"
 #include "core/world/ray_block.h"
 #include "core/world/world.h"
 
@@ -13,13 +14,9 @@ constexpr std::size_t least_stream = 4, least_block = 16;
 /// Number of rays that are cast together in a world of half-spaces and meshes.
 constexpr std::size_t rays_at_shapeless = 512;
 
-/// True if the first and the last ray have the same origin and similar directions, as all rays of a
-/// block must.
+/// True if the rays may form a block.
 bool may_be_block(const RaySpan& rays) {
-  const Ray<double>&first = rays.ray(0), &last = rays.ray(rays.size() - 1);
-  if (first.origin != last.origin) return false;
-  const double size = first.direction.cwiseAbs().maxCoeff();
-  return (last.direction - first.direction).cwiseAbs().maxCoeff() <= 0.5 * size;
+  return are_alike(rays.ray(0), rays.ray(rays.size() - 1), 0.5);
 }
 
 class Into : public HitReceiver {

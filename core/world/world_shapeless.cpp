@@ -6,6 +6,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/bvh/box_rounds.h"
 #include "core/bvh/group_walk.h"
 #include "core/bvh/stream.h"
 #include "core/world/posed_mesh_rays.h"
@@ -20,100 +21,6 @@ constexpr std::size_t least_together = 4;
 /// Largest number of meshes for tracing rays in different directions together: with more, single
 /// rays are as fast.
 constexpr std::size_t most_meshes = 4;
-
-/// Rounds in which rays are cast at meshes: in each round, each ray is cast at the next mesh whose
-/// box it meets, near boxes first, and the rays at the same mesh are cast together.
-class Rounds {
- public:
-  /// The hierarchy contains the boxes, which are those of the meshes. Limits of `slabs` may be
-  /// lowered between rounds.
-  Rounds(const Bvh& bvh, std::span<const Bounds<float>> boxes, std::span<const SlabRay> slabs,
-         QueryCounts& counts)
-      : boxes_(boxes), slabs_(slabs), next_(slabs.size()), ends_(slabs.size()) {
-    for (std::size_t i = 0; i < slabs.size(); ++i) {
-      next_[i] = static_cast<std::uint32_t>(meshes_.size());
-      counts.nodes += traverse(bvh, slabs_[i], [&](std::uint32_t mesh) {
-        meshes_.push_back(mesh);
-        return false;
-      });
-      ends_[i] = static_cast<std::uint32_t>(meshes_.size());
-    }
-    of_mesh_.resize(boxes.size());
-  }
-
-  /// Calls visit(mesh, rays) for each mesh of the next round. A ray takes part while is_open(ray).
-  /// Returns false if no ray is left.
-  template <class IsOpen, class Visit>
-  bool next(const IsOpen& is_open, const Visit& visit) {
-    // Sorts by mesh, and leaves the rays at one mesh in order.
-    met_.clear();
-    std::ranges::fill(of_mesh_, 0u);
-    for (std::uint32_t i = 0; i < next_.size(); ++i) {
-      const std::uint32_t mesh = next_mesh(i, is_open);
-      if (mesh == none) continue;
-      met_.push_back({mesh, i});
-      ++of_mesh_[mesh];
-    }
-    std::uint32_t begin = 0;
-    for (std::uint32_t& of : of_mesh_) begin += std::exchange(of, begin);
-    rays_.resize(met_.size());
-    for (const RayAtMesh& one : met_) rays_[of_mesh_[one.mesh]++] = one.ray;
-    begin = 0;
-    for (std::uint32_t mesh = 0; mesh < of_mesh_.size(); ++mesh) {
-      const std::uint32_t end = of_mesh_[mesh];
-      if (end > begin) visit(mesh, std::span(rays_).subspan(begin, end - begin));
-      begin = end;
-    }
-    return !met_.empty();
-  }
-
- private:
-  static constexpr std::uint32_t none = ~std::uint32_t{0};
-  struct RayAtMesh {
-    std::uint32_t mesh, ray;
-  };
-
-  template <class IsOpen>
-  std::uint32_t next_mesh(std::uint32_t ray, const IsOpen& is_open) {
-    if (!is_open(ray)) return none;
-    while (next_[ray] < ends_[ray]) {
-      const std::uint32_t mesh = meshes_[next_[ray]++];
-      if (is_reached(boxes_[mesh], slabs_[ray].numbers)) return mesh;
-    }
-    return none;
-  }
-
-  /// The slab test of a traversal, for one box.
-  static bool is_reached(const Bounds<float>& box, const SlabNumbers& ray) {
-    float enter = 0, leave = ray.t_max;
-    for (int axis = 0; axis < 3; ++axis) {
-      const float corners[2] = {box.lower[axis], box.upper[axis]};
-      const float in = (corners[ray.near[axis]] - ray.origin_near[axis]) * ray.inverse_near[axis],
-                  out =
-                      (corners[1 - ray.near[axis]] - ray.origin_far[axis]) * ray.inverse_far[axis];
-      enter = in > enter ? in : enter;  // NaN does not count
-      leave = out < leave ? out : leave;
-    }
-    return enter <= leave * slab_padding + slab_tiny;
-  }
-
-  std::span<const Bounds<float>> boxes_;
-  std::span<const SlabRay> slabs_;
-  std::vector<std::uint32_t> next_, ends_;  ///< by ray: its meshes in meshes_ that remain
-  std::vector<std::uint32_t> meshes_, of_mesh_, rays_;
-  std::vector<RayAtMesh> met_;
-};
-
-/// True if the first and the last of at least least_group rays have the same origin and similar
-/// directions.
-constexpr std::size_t least_group = 12;
-bool may_be_group(const RaySpan& rays) {
-  if (rays.size() < least_group) return false;
-  const Ray<double>&first = rays.ray(0), &last = rays.ray(rays.size() - 1);
-  if (first.origin != last.origin) return false;
-  const double size = first.direction.cwiseAbs().maxCoeff();
-  return (last.direction - first.direction).cwiseAbs().maxCoeff() <= 0.25 * size;
-}
 
 }  // namespace
 
@@ -261,7 +168,8 @@ void World::closest_shapeless(const RaySpan& rays, std::span<WorldHit> closest,
       if (counts.exhausted > before) is_exhausted[i] = 1;
     }
     if (meshes > most_meshes) return;
-    Rounds rounds(mesh_boxes_, boxes_of_meshes_, make_slabs(first, end), counts);
+    BoxRounds rounds(mesh_boxes_, boxes_of_meshes_, make_slabs(first, end));
+    counts.nodes += rounds.nodes();
     const auto visit = [&](std::uint32_t mesh, std::span<const std::uint32_t> of_round) {
       numbers.clear();
       for (const std::uint32_t i : of_round) numbers.push_back(first + i);
@@ -272,19 +180,16 @@ void World::closest_shapeless(const RaySpan& rays, std::span<WorldHit> closest,
   };
   for (std::uint32_t first = 0; first < count; first += rays_of_group) {
     const std::uint32_t end = std::min<std::uint32_t>(first + rays_of_group, count);
-    if (!may_be_group(rays.part(first, end - first))) continue;
+    if (end - first < least_rays_of_group || !may_form_group(rays.ray(first), rays.ray(end - 1)))
+      continue;
+    const std::span<const SlabRay> of_group = make_slabs(first, end);
     auto visit = [&](std::uint32_t mesh, std::uint32_t in) {
       numbers.clear();
       for (; in != 0; in &= in - 1)
         numbers.push_back(first + static_cast<std::uint32_t>(std::countr_zero(in)));
       cast_at(mesh, numbers);
     };
-    const auto plain = [](void* context, std::uint32_t mesh, std::uint32_t in) {
-      (*static_cast<decltype(visit)*>(context))(mesh, in);
-    };
-    const std::span<const SlabRay> of_group = make_slabs(first, end);
-    const std::uint64_t nodes =
-        walk_group_avx2(mesh_boxes_.nodes.data(), of_group.data(), end - first, {plain, &visit});
+    const std::uint64_t nodes = walk_group(mesh_boxes_, of_group, visit);
     if (nodes == 0) continue;
     counts.nodes += nodes;
     cast_up_to(first);
@@ -329,7 +234,8 @@ void World::blocked_by_shapeless(const RaySpan& rays, std::span<std::uint8_t> me
   }
   FirstTouchVector<SlabRay> slabs(rays.size());
   make_slabs_avx2(rays.data(), rays.stride(), rays.size(), slabs.data());
-  Rounds rounds(mesh_boxes_, boxes_of_meshes_, slabs, counts);
+  BoxRounds rounds(mesh_boxes_, boxes_of_meshes_, slabs);
+  counts.nodes += rounds.nodes();
   while (rounds.next(is_open, cast_at)) {
   }
 }

@@ -280,15 +280,12 @@ TEST(Traverse, a_group_finds_the_boxes_of_its_rays) {
       for (std::size_t k = 1; k < count; ++k)
         if (of_group[k].size() == 5) rays[k].numbers.t_max = -1;
     };
-    const auto plain = [](void* context, std::uint32_t number, std::uint32_t in) {
-      (*static_cast<decltype(visit)*>(context))(number, in);
-    };
     std::vector<BoxSet> alone;
     for (const SlabRay& ray : rays) {
       alone.emplace_back();
       traverse(bvh, ray, [&](std::uint32_t number) { return alone.back().insert(number), false; });
     }
-    if (walk_group_avx2(bvh.nodes.data(), rays.data(), count, {plain, &visit}) == 0) continue;
+    if (walk_group(bvh, rays, visit) == 0) continue;
     ++groups;
     EXPECT_EQ(of_group[0], alone[0]);
     for (std::size_t k = 1; k < count; ++k) {
