@@ -36,16 +36,10 @@ CastReferee::CastReferee(const Shape& shape, const Ray<double>& ray) : shape_(sh
   speed_ = direction_.norm();
   t_max_ = ray.t_max;
 
-  Quad along = 0, squared = 0;
-  for (int i = 0; i < 3; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    from_centre_[k] = Quad(ray.origin[i]) - Quad(centre_[i]);
-    along += from_centre_[k] * Quad(ray.direction[i]);
-    squared += Quad(ray.direction[i]) * Quad(ray.direction[i]);
-  }
-  Real distance = 0;
-  for (const Quad x : from_centre_) distance += std::abs(static_cast<Real>(x));
-  t_closest_ = speed_ > 0 ? static_cast<Real>(-along / squared) : 0;
+  const QuadVec d = quad(ray.direction);
+  from_centre_ = quad(ray.origin) - centre_.cast<Quad>();
+  const Real distance = from_centre_.cast<Real>().lpNorm<1>();
+  t_closest_ = speed_ > 0 ? static_cast<Real>(-from_centre_.dot(d) / d.squaredNorm()) : 0;
   closest_ = at(t_closest_, 0);
 
   using Limits = std::numeric_limits<double>;
@@ -67,13 +61,8 @@ CastReferee::CastReferee(const Shape& shape, const Ray<double>& ray) : shape_(sh
 }
 
 Vec3<Real> CastReferee::at(Real t_base, Real t_offset) const {
-  Vec3<Real> x;
-  for (int i = 0; i < 3; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const Quad d = Quad(direction_[i]);
-    x[i] = static_cast<Real>(from_centre_[k] + Quad(t_base) * d + Quad(t_offset) * d);
-  }
-  return x;
+  const QuadVec d = direction_.cast<Quad>();
+  return (from_centre_ + Quad(t_base) * d + Quad(t_offset) * d).cast<Real>();
 }
 
 std::string CastReferee::kept_off(const Claim& claim, const Vec3<Real>& n) const {

@@ -10,12 +10,14 @@
 #include "core/math/ray.h"
 #include "core/query/result.h"
 #include "tests/fuzz/extent.h"
+#include "tests/oracle/quad.h"
 
 namespace minkray::fuzz {
 
 using Real = long double;
-/// For cancellation: a ray's far origin against the shape's own position.
-__extension__ using Quad = __float128;
+using testing::Quad;
+using testing::quad;
+using testing::QuadVec;
 
 /// One shape and one ray; the results of all solvers are checked against the same facts:
 /// - a miss is proven by its plane: the ray, where it could hit, is on the plane's other side;
@@ -56,7 +58,7 @@ class CastReferee {
   Shape shape_;
   Vec3<Real> centre_;
   Vec3<Real> direction_;
-  std::array<Quad, 3> from_centre_;  ///< the ray's origin
+  QuadVec from_centre_;  ///< the ray's origin; its digits cancel
   Real speed_, t_max_, t_closest_;
   Vec3<Real> closest_;  ///< the line's point at t_closest_, from the centre
   Real radius_;         ///< of a ball around the centre that holds the shape

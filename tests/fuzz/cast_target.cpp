@@ -78,12 +78,11 @@ std::string check_packets(const PreparedShape& prepared, const RayPacket& rays, 
 std::string check_proof(const Shape& shape, const Ray<double>& ray,
                         const CastResult<double>& result, double rounding) {
   if (result.status == Status::exhausted) return "";
-  const Shape same = shape;
   const Ray<double> same_ray{ray.origin.cast<double>(), ray.direction.cast<double>(),
                              double(ray.t_max)};
-  const SupportFunction support = supports_of(same);
+  const SupportFunction support = supports_of(shape);
   if (near_segment(support, same_ray).is_too_far) return "";
-  const Bounds<double> bounds = bounds_of(same);
+  const Bounds<double> bounds = bounds_of(shape);
   const double size = bounds.centre().norm() + bounds.half_extents().norm();
   Claim claim = claim_of(result);
   if (size > 0) claim.epsilon = std::max(claim.epsilon, rounding / (certificate_rounding * size));
@@ -105,8 +104,7 @@ std::string check_ray(const Shape& shape, const PreparedShape& prepared, const R
     return "solver " + std::string(who) + ": " + bad + "\n" + as_query(shape, ray);
   };
   for (const SolverDescription& solver : testing::accurate_solvers()) {
-    CastOptions options;
-    options.solver = solver.kind;
+    const CastOptions options{solver.kind};
     const CastResult<double> result = cast_ray(prepared, ray, options);
     if (const std::string bad = referee.check(solver.name, result); !bad.empty())
       return complaint(solver.name, bad);

@@ -26,7 +26,7 @@ inline Affine<double> map_from(Bytes& bytes, bool wild) {
   if (wild && bytes.below(3) == 0) scale *= std::ldexp(1, bytes.below(120) - 60);
   const bool moves = bytes.below(2) == 1;
   const Vec3<double> by = moves ? bytes.point<double>(wild) : Vec3<double>(Vec3<double>::Zero());
-  return {Mat3<double>(turn * scale.asDiagonal()).cast<double>(), by};
+  return {Mat3<double>(turn * scale.asDiagonal()), by};
 }
 
 inline Shape leaf_from(Bytes& bytes, bool wild) {
@@ -105,7 +105,7 @@ inline Shape leaf_from(Bytes& bytes, bool wild) {
         Vec3<double> p;
         for (double& x : p) x = lattice ? double(next() % 3) - 1 : next() * 0x1p-15 - 1;
         if (!lattice && p.norm() > 0.1) p.normalize();
-        points.push_back(p.cast<double>().cwiseProduct(of));
+        points.push_back(p.cwiseProduct(of));
       }
       return Hull{PointCloud(std::move(points))};
     }

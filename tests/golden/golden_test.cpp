@@ -7,7 +7,7 @@
 
 #include "renderer/base/hash.h"
 #include "renderer/io/exr.h"
-#include "tests/support/program.h"
+#include "tests/support/expect_exit.h"
 #include "tests/support/recorded_hashes.h"
 #include "tests/support/source_files.h"
 
@@ -75,10 +75,7 @@ constexpr Way shares = {
 class Golden : public ::testing::TestWithParam<Picture> {
  protected:
   Golden() {
-    EXPECT_EQ(run_shell("cd '" + (folder_ / ".") +
-                        "' && \"$MINKRAY\" generate capsules -n 2000 --seed 3 -o particles.json")
-                  .exit_code,
-              0);
+    expect_exit(0, run_minkray(folder_, "generate capsules -n 2000 --seed 3 -o particles.json"));
   }
 
   std::map<std::string, std::string> made(const Way& way, const std::string& options) const {

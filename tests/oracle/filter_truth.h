@@ -5,6 +5,7 @@
 #include "core/cast/prepared_shape.h"
 #include "core/query/result.h"
 #include "tests/oracle/closed_form.h"
+#include "tests/oracle/quad.h"
 
 namespace minkray::testing {
 
@@ -20,36 +21,16 @@ template <class LineIn>
 inline FilterVerdict judge_bound_by(const LineIn& line_in, const PreparedShape& prepared,
                                     const Ray<double>& ray, const CastResult<double>& answer,
                                     bool leaves = false) {
-  __extension__ using Quad = __float128;
-  std::array<Quad, 3> o, d;
-  for (int i = 0; i < 3; ++i) {
-    o[static_cast<std::size_t>(i)] =
-        Quad(ray.origin[i]) - Quad(prepared.centre()[i]) - Quad(prepared.two_fold_centre().low[i]);
-    d[static_cast<std::size_t>(i)] = Quad(ray.direction[i]);
-  }
+  const TwoFoldVec3<double>& centre = prepared.two_fold_centre();
+  QuadVec o = quad(ray.origin) - quad(centre.high) - quad(centre.low), d = quad(ray.direction);
   if (const Mat3<double>* map = prepared.linear_to_inner()) {
-    const auto times = [&](const std::array<Quad, 3>& v) {
-      std::array<Quad, 3> mapped;
-      for (int i = 0; i < 3; ++i)
-        mapped[static_cast<std::size_t>(i)] =
-            Quad((*map)(i, 0)) * v[0] + Quad((*map)(i, 1)) * v[1] + Quad((*map)(i, 2)) * v[2];
-      return mapped;
-    };
-    o = times(o);
-    d = times(d);
+    o = map->cast<Quad>() * o;
+    d = map->cast<Quad>() * d;
   }
-  Quad od = 0, dd = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    od += o[i] * d[i];
-    dd += d[i] * d[i];
-  }
-  const Quad base = answer.status == Status::hit ? Quad(answer.t_base) : -od / dd;
-  Vec3<Long> at, along;
-  for (int i = 0; i < 3; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    at[i] = static_cast<Long>(o[k] + base * d[k] + Quad(prepared.inner_ball().centre[i]));
-    along[i] = static_cast<Long>(d[k]);
-  }
+  const Quad base =
+      answer.status == Status::hit ? Quad(answer.t_base) : -o.dot(d) / d.squaredNorm();
+  const Vec3<Long> along = d.cast<Long>(),
+                   at = (o + base * d + quad(prepared.inner_ball().centre)).cast<Long>();
   const Interval inside = line_in(at, along);
   const Quad begin = -base, end = Quad(ray.t_max) - base;
   const bool meets = !inside.empty() && Quad(inside.upper) >= begin && Quad(inside.lower) <= end;

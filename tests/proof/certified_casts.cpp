@@ -24,32 +24,29 @@ CertifiedCasts& CertifiedCasts::operator+=(const CertifiedCasts& other) {
 
 CertifiedCasts certified_casts(const Shape& shape, RayFamily family, int rays, std::uint64_t seed,
                                SolverKind solver) {
-  const Shape cast_at = shape;
-  const PreparedShape prepared(cast_at);
-  const SupportFunction support = supports_of(cast_at);
-  CastOptions options;
-  options.solver = solver;
-  FamilyRays source(cast_at, family, seed);
+  const PreparedShape prepared(shape);
+  const SupportFunction support = supports_of(shape);
+  const CastOptions options{solver};
+  FamilyRays source(shape, family, seed);
   CertifiedCasts all;
   for (int i = 0; i < rays; ++i) {
     const Ray<double> ray = source.next();
-    const Ray<double> same_ray = ray;
     const Claim claim = claim_of(cast_ray(prepared, ray, options));
     if (claim.status == Status::exhausted) {
       ++all.exhausted;
       if (all.first_failures.size() < 3)
-        all.first_failures.push_back({same_ray, claim, {}, Vec3<double>::Zero()});
+        all.first_failures.push_back({ray, claim, {}, Vec3<double>::Zero()});
       continue;
     }
-    const Certificate certificate = certify(support, same_ray, claim);
-    const CertificateVerdict verdict = check_certificate(support, same_ray, claim, certificate);
+    const Certificate certificate = certify(support, ray, claim);
+    const CertificateVerdict verdict = check_certificate(support, ray, claim, certificate);
     all.supports += certificate.supports;
     ++(claim.status == Status::hit ? all.hits
                                    : (claim.status == Status::miss ? all.misses : all.insides));
     if (!verdict.holds) {
       ++all.failed;
       if (all.first_failures.size() < 3)
-        all.first_failures.push_back({same_ray, claim, verdict, certificate.plane});
+        all.first_failures.push_back({ray, claim, verdict, certificate.plane});
       continue;
     }
     const double unit_length = verdict.allowed / certificate_rounding;
@@ -61,7 +58,7 @@ CertifiedCasts certified_casts(const Shape& shape, RayFamily family, int rays, s
     all.gap = std::max(all.gap, verdict.gap / unit_length);
     all.claim_error = std::max(all.claim_error, verdict.claim_error / unit_length);
     if (claim.status != Status::hit) continue;
-    const double late = verdict.late * std::abs(claim.normal.dot(same_ray.direction.normalized()));
+    const double late = verdict.late * std::abs(claim.normal.dot(ray.direction.normalized()));
     all.t_error = std::max(all.t_error, late / unit_length);
   }
   return all;

@@ -19,8 +19,7 @@ int main(int count, char** words) {
     const bool is_slender = n % 11 == 10;
     const RandomPair pair = is_slender ? slender_pair(k, std::pow(10, random.in(1, 4)), random)
                                        : random_pair(i, j, k, random);
-    const SignedDistance result =
-        signed_distance(pair.a.ready, pair.a.pose, pair.b.ready, pair.b.pose);
+    const SignedDistance result = signed_distance(pair.a, pair.b);
     const std::string bad = complaint(pair.a, pair.b, result, random);
     ++statuses[static_cast<int>(result.status)];
     if (bad.empty()) continue;

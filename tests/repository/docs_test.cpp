@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <regex>
 
+#include "tests/support/messages.h"
 #include "tests/support/source_files.h"
 
 namespace minkray {
@@ -47,7 +48,7 @@ TEST(Docs, the_index_has_every_page) {
   std::size_t count = 0;
   for (const SourceFile& page : files_in("docs")) {
     if (!page.name.ends_with(".md") || page.name == "docs/README.md") continue;
-    EXPECT_NE(index.find("](" + page.name.substr(5) + ")"), std::string::npos)
+    EXPECT_TRUE(has(index, "](" + page.name.substr(5) + ")"))
         << page.name << " is not in docs/README.md";
     ++count;
   }

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/shape/shape.h"
+#include "tests/support/messages.h"
 #include "tests/support/source_files.h"
 
 namespace minkray {
@@ -312,8 +313,7 @@ TEST(Repository, every_source_begins_with_its_licence) {
       EXPECT_TRUE(file.text.starts_with("// SPDX-License-Identifier: MIT\n"))
           << file.name << " must begin with it";
       if (file.name.ends_with(".h")) {
-        EXPECT_NE(file.text.find("#pragma once\n"), std::string::npos)
-            << file.name << " must have #pragma once";
+        EXPECT_TRUE(has(file.text, "#pragma once\n")) << file.name << " must have #pragma once";
       }
     }
   }

@@ -55,8 +55,7 @@ Judgement CastJudge::operator()(const Ray<double>& ray, const CastResult<double>
     return {is_at_silhouette() ? Verdict::at_silhouette : Verdict::wrong};
   if (!is_hit) return {Verdict::right};
   const Long late = (Long(answer.t_base) - truth.entry.t) + Long(answer.t_offset);
-  const double cosine =
-      std::min(truth.cosine, cosine_at(ray, truth.entry.t, answer.normal.cast<double>()));
+  const double cosine = std::min(truth.cosine, cosine_at(ray, truth.entry.t, answer.normal));
   const double error =
       std::abs(static_cast<double>(late)) * ray.direction.norm() * cosine / ball_.radius;
   // Along a side: entered anywhere, or not at all.

@@ -2,10 +2,14 @@
 // Casts compared with truths in long double that need neither a solver nor support points.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "core/query/result.h"
+#include "core/cast/cast.h"
+#include "tests/support/ray_families.h"
 
 namespace minkray::testing {
 
@@ -26,6 +30,23 @@ long double bisected(long double low, long double high, const auto& is_before) {
     (is_before(middle) ? low : high) = middle;
   }
   return high;
+}
+
+/// Truth by bisection of a convex function along a ray's line: slope(t), along the line;
+/// outside(t), above 0 outside of the shape, and at least the distance from it; normal(t), of any
+/// length.
+template <class Function>
+CastTruth truth_by_bisection(const Function& function, const Ray<double>& ray, long double R) {
+  using Long = long double;
+  const Vec3<Long> o = ray.origin.cast<Long>(), d = ray.direction.cast<Long>();
+  const Long middle = -o.dot(d) / d.squaredNorm(), around = 2 * R / d.norm();
+  const Long least =
+      bisected(middle - around, middle + around, [&](Long t) { return function.slope(t) < 0; });
+  const auto beside = static_cast<double>(function.outside(least));
+  if (beside > 0) return {false, beside, 0, Vec3<Long>::Zero()};
+  const Long t =
+      bisected(middle - around, least, [&](Long at) { return function.outside(at) > 0; });
+  return {true, beside, t, function.normal(t).normalized()};
 }
 
 /// Distance from the silhouette, in units of R, within which either result is right.
@@ -57,5 +78,32 @@ struct CastOutcome {
     unproven = std::max(unproven, error(result.offset_lo));
   }
 };
+
+/// Casts `count` rays of a family, and compares them with truth(ray).
+template <class Truth>
+CastOutcome cast_family(const Shape& shape, RayFamily family, int count, const Truth& truth,
+                        const CastOptions& options = {}) {
+  const PreparedShape prepared(shape);
+  FamilyRays rays(shape, family, 83);
+  CastOutcome outcome;
+  for (int i = 0; i < count; ++i) {
+    const Ray<double> ray = rays.next();
+    outcome.add(cast_ray(prepared, ray, options), truth(ray), ray.direction, rays.ball().radius);
+  }
+  return outcome;
+}
+
+struct CastLimits {
+  double worst, unproven = std::numeric_limits<double>::infinity();
+  int hits = 1, others = 0;  ///< the least number of hits, and the most of others
+};
+
+inline void expect_within(const CastOutcome& outcome, const CastLimits& limits) {
+  EXPECT_EQ(outcome.wrong, 0);
+  EXPECT_LE(outcome.others, limits.others);
+  EXPECT_GE(outcome.hits, limits.hits);
+  EXPECT_LE(outcome.worst, limits.worst);
+  EXPECT_LE(outcome.unproven, limits.unproven);
+}
 
 }  // namespace minkray::testing

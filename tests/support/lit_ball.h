@@ -3,6 +3,7 @@
 #pragma once
 
 #include "renderer/scene/scene.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 
@@ -14,7 +15,7 @@ inline Scene lit_ball(const Resolution& resolution) {
   scene.materials = {{"matt", LambertMaterial{Colour::Constant(0.7)}},
                      {"lamp", EmissiveMaterial{Colour::Constant(8)}}};
   const auto add = [&](Shape shape, const Vec3<double>& at, std::uint32_t material) {
-    scene.objects.push_back({"", std::move(shape), {Mat3<double>::Identity(), at}, material});
+    scene.objects.push_back({"", std::move(shape), shifted_by(at), material});
   };
   add(Box{{3, 3, 0.5}}, {0, 0, -1.5}, 0);
   add(Sphere{1}, {0, 0, 0}, 0);

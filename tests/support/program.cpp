@@ -58,6 +58,10 @@ ProgramOutcome run_shell(const std::string& command) {
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of_file(out), text_of_file(err)};
 }
 
+ProgramOutcome run_in(const TemporaryFolder& folder, const std::string& command) {
+  return run_shell("cd '" + folder.path().string() + "' || exit 99\n" + command);
+}
+
 std::string limited_memory() {
 #if defined(__SANITIZE_ADDRESS__)
   return "";

@@ -27,8 +27,17 @@ struct ProgramOutcome {
   std::string out, err;
 };
 
-/// Runs a shell's command in which $MINKRAY is the program.
+/// Runs a shell's command in which $MINKRAY is the program; in a folder.
 ProgramOutcome run_shell(const std::string& command);
+ProgramOutcome run_in(const TemporaryFolder& folder, const std::string& command);
+
+/// Runs the program with a shell's words; in a folder.
+inline ProgramOutcome run_minkray(const std::string& words) {
+  return run_shell("\"$MINKRAY\" " + words);
+}
+inline ProgramOutcome run_minkray(const TemporaryFolder& folder, const std::string& words) {
+  return run_in(folder, "\"$MINKRAY\" " + words);
+}
 
 /// Limits the shell's next commands to 1 GiB of address space. Empty under AddressSanitizer, which
 /// needs terabytes of it.

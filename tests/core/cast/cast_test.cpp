@@ -5,6 +5,7 @@
 
 #include "core/cast/packet_cast.h"
 #include "tests/support/random.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -121,7 +122,7 @@ TEST(Cast, no_hit_is_after_the_rays_end) {
 }
 
 TEST(Cast, a_ray_from_inside_says_so_and_knows_its_exit) {
-  const PreparedShape box(Box{{1, 2, 3}}, {Mat3<double>::Identity(), {10, 0, 0}});
+  const PreparedShape box(Box{{1, 2, 3}}, shifted_by(10, 0, 0));
   const Ray<double> ray{{10, 0, 0}, {0, 0.5, 0}};
   EXPECT_EQ(cast_ray(box, ray).status, Status::inside);
   EXPECT_EQ(cast_ray(box, ray).t(), 0.0);
@@ -155,8 +156,7 @@ void check_ends_from_afar() {
     const Vec3<double> aim = random.direction() * random.uniform(0, 0.9);
     const double distance = std::pow(10.0, random.uniform(4, 5.5));
     const Vec3<double> o = aim - random.direction() * distance;
-    Ray<double> ray{o.cast<double>(),
-                    Vec3<double>((aim - o) / distance * random.uniform(0.5, 3)).cast<double>()};
+    Ray<double> ray{o, Vec3<double>((aim - o) / distance * random.uniform(0.5, 3))};
     using Long = long double;
     const Vec3<Long> origin = ray.origin.cast<Long>(), direction = ray.direction.cast<Long>();
     const Long a = direction.squaredNorm(), b = origin.dot(direction);
@@ -187,7 +187,7 @@ void check_spots_near_edges(double least_slope) {
   int hits = 0;
   for (int i = 0; i < 8000; ++i) {
     const Vec3<double> h(random.uniform(0.3, 1), random.uniform(0.3, 1), random.uniform(0.3, 1));
-    const Vec3<double> half = h.cast<double>();
+    const Vec3<double> half = h;
     std::vector<Vec3<double>> corners;
     for (int k = 0; k < 8; ++k)
       corners.push_back(half.cwiseProduct(
@@ -196,15 +196,13 @@ void check_spots_near_edges(double least_slope) {
     const double slope = least_slope * std::pow(10.0, random.uniform(0, 3));
     const Vec3<double> edge(-h.x(), h.y() * random.uniform(-0.9, 0.9), h.z());
     const Vec3<double> r = Vec3<double>(1, random.uniform(-0.6, 0.6), -slope);
-    const Ray<double> ray{Vec3<double>(edge - r * random.uniform(0.5, 2)).cast<double>(),
-                          r.cast<double>()};
+    const Ray<double> ray{Vec3<double>(edge - r * random.uniform(0.5, 2)), r};
     const CastResult<double> result = cast_ray(hull, ray);
     if (result.status != Status::hit) continue;
     ++hits;
     const Vec3<double> hit_point =
-        ray.origin.cast<double>() +
-        ray.direction.cast<double>() * (double(result.t_base) + double(result.t_offset));
-    worst = std::max(worst, (hit_point.cwiseAbs() - half.cast<double>()).maxCoeff());
+        ray.origin + ray.direction * (double(result.t_base) + double(result.t_offset));
+    worst = std::max(worst, (hit_point.cwiseAbs() - half).maxCoeff());
   }
   EXPECT_GT(hits, 3000);
   EXPECT_LE(worst, 16 * std::numeric_limits<double>::epsilon());

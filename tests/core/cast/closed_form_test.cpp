@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Casts against closed forms in long double: every shape that has one, every solver, float and
-// double, at several scales and distances.
+// Casts against closed forms in long double: every shape that has one, every solver, at several
+// scales and distances.
 #include "tests/oracle/closed_form.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ namespace {
 constexpr double allowed = 512;
 
 struct Outcome {
-  int rays = 0, hits = 0, undecided = 0, exhausted = 0, wrong = 0;
+  int hits = 0, undecided = 0, wrong = 0;
   double worst = 0;  ///< error of t times cosine, in epsilons of the radius
   double worst_normal =
       0;  ///< distance of the hit point from the normal's supporting plane, likewise
@@ -31,7 +31,7 @@ Vec3<Long> exact(const Vec3<double>& v) {
   return v.cast<Long>();
 }
 
-/// A ray, in numbers that T holds exactly, and the truth about it.
+/// A ray and the truth about it.
 struct Query {
   Ray<double> ray;
   bool must_hit, may_hit;  ///< different for rays that graze the shape
@@ -56,68 +56,52 @@ struct Queries {
   std::vector<Query> queries;
 };
 
-Queries queries_of(const Shape& shape_in_double, int count, double distance, double scale) {
-  // Numbers that T holds exactly, so that the oracle gets the same shape and ray.
-  const Shape scaled =
-      scale == 1
-          ? shape_in_double
-          : Shape(Transform{
-                Nested(shape_in_double),
-                AffineMap(Affine<double>{Mat3<double>::Identity() * scale, Vec3<double>::Zero()})});
-  const Shape shape = scaled;
+constexpr double epsilon_of_double = std::numeric_limits<double>::epsilon();
+
+Queries queries_of(const Shape& plain, int count, double distance, double scale) {
+  const Affine<double> map{Mat3<double>::Identity() * scale, Vec3<double>::Zero()};
+  const Shape shape = scale == 1 ? plain : Shape(Transform{Nested(plain), AffineMap(map)});
   const Bounds<double> bounds = bounds_of(shape);
   const double radius = bounds.half_extents().norm();
-  const Vec3<double> centre = bounds.centre();
-  const double epsilon = static_cast<double>(std::numeric_limits<double>::epsilon());
 
   // Grown or shrunk by more than any error allowed: a line that meets the one and not the other
   // grazes the shape, and may do either. A far origin's own rounding does not count: it is exact.
-  const double thinnest = [&] {
-    double least = radius;
-    for (const double extent : bounds.half_extents())
-      if (extent > 1e-9 * radius) least = std::min(least, extent);
-    return least;
-  }();
-  const Long band = static_cast<Long>(allowed * epsilon * radius / thinnest);
+  double thinnest = radius;
+  for (const double extent : bounds.half_extents())
+    if (extent > 1e-9 * radius) thinnest = std::min(thinnest, extent);
+  const double band = allowed * epsilon_of_double * radius / thinnest;
   const auto meets = [&](const Ray<double>& ray, Long size) {
-    const Vec3<Long> origin = exact(centre) + (exact(ray.origin) - exact(centre)) / size;
-    const auto line = line_in_shape(shape, origin, exact(ray.direction) / size);
+    const Vec3<Long> centre = exact(bounds.centre());
+    const auto line = line_in_shape(shape, centre + (exact(ray.origin) - centre) / size,
+                                    exact(ray.direction) / size);
     return !line->empty() && line->upper >= 0;
   };
 
   AimedRays rays(bounds, 11, distance);
   const double spread = rays.spread_for_half([&](const Ray<double>& ray) { return meets(ray, 1); });
-  Queries all{shape, radius, static_cast<double>(band), {}};
+  Queries all{shape, radius, band, {}};
   for (int i = 0; i < count; ++i) {
-    const Ray<double> wanted = rays.next(spread);
-    const Ray<double> ray_in_T{wanted.origin.cast<double>(), wanted.direction.cast<double>()};
-    const Ray<double> ray{ray_in_T.origin.cast<double>(), ray_in_T.direction.cast<double>()};
+    const Ray<double> ray = rays.next(spread);
     const auto line = line_in_shape(shape, exact(ray.origin), exact(ray.direction));
     const double towards = line->empty() ? 0 : steepness(shape, ray, line->lower, radius);
-    all.queries.push_back({ray_in_T, meets(ray, 1 - band), meets(ray, 1 + band), *line, towards});
+    all.queries.push_back({ray, meets(ray, 1 - band), meets(ray, 1 + band), *line, towards});
   }
   return all;
 }
 
 Outcome ask(const Queries& all, SolverKind solver) {
-  const double epsilon = static_cast<double>(std::numeric_limits<double>::epsilon());
-  const double radius = all.radius;
-  const Shape same = all.shape;
+  const double unit = all.radius * epsilon_of_double;
   const PreparedShape prepared(all.shape);
-  CastOptions options;
-  options.solver = solver;
   Outcome outcome;
-  for (const auto& [ray_in_T, must_hit, may_hit, line, towards_true] : all.queries) {
-    const Ray<double> ray{ray_in_T.origin.cast<double>(), ray_in_T.direction.cast<double>()};
-    const CastResult<double> result = cast_ray(prepared, ray_in_T, options);
-    ++outcome.rays;
+  for (const auto& [ray, must_hit, may_hit, line, towards_true] : all.queries) {
+    const CastResult<double> result = cast_ray(prepared, ray, {solver});
     const bool hit = result.found();
     outcome.hits += hit;
-    const auto describe = [&] {
+    const auto describe = [&result, &from = ray] {
       std::ostringstream text;
       text.precision(17);
       text << name_of(result.status) << " at " << result.t() << " for origin "
-           << ray.origin.transpose() << ", direction " << ray.direction.transpose();
+           << from.origin.transpose() << ", direction " << from.direction.transpose();
       return text.str();
     };
     const auto wrong = [&](const char* why) {
@@ -125,7 +109,6 @@ Outcome ask(const Queries& all, SolverKind solver) {
     };
     outcome.undecided += must_hit != may_hit;
     if (result.status == Status::exhausted) {
-      ++outcome.exhausted;
       if (must_hit == may_hit) wrong("gave up");
       continue;
     }
@@ -133,19 +116,19 @@ Outcome ask(const Queries& all, SolverKind solver) {
     if (hit && !may_hit) wrong("false hit");
     if (!(hit && must_hit && may_hit)) continue;
 
-    const Long t = static_cast<Long>(result.t_base) + static_cast<Long>(result.t_offset);
-    const Vec3<double> n = result.normal.cast<double>();
+    const Long t = Long(result.t_base) + Long(result.t_offset);
+    const Vec3<double>& n = result.normal;
     // Next to an edge either face may be answered: a spot as near to the one as to the other.
     const double towards = std::min(std::abs(n.dot(ray.direction)), towards_true);
-    const double error = static_cast<double>(std::abs(t - line.lower)) * towards;
-    if (const double in_epsilons = error / (radius * epsilon); in_epsilons > outcome.worst) {
-      outcome.worst = in_epsilons;
+    const double error = static_cast<double>(std::abs(t - line.lower)) * towards / unit;
+    if (error > outcome.worst) {
+      outcome.worst = error;
       outcome.worst_ray = describe();
     }
     const Vec3<double> x = (exact(ray.origin) + t * exact(ray.direction)).cast<double>();
-    const double depth = n.dot(same.support(n)) - n.dot(x);
-    outcome.worst_normal = std::max(outcome.worst_normal, std::abs(depth) / (radius * epsilon));
-    EXPECT_NEAR(n.norm(), 1, 8 * epsilon);
+    const double depth = n.dot(all.shape.support(n)) - n.dot(x);
+    outcome.worst_normal = std::max(outcome.worst_normal, std::abs(depth) / unit);
+    EXPECT_NEAR(n.norm(), 1, 8 * epsilon_of_double);
   }
   return outcome;
 }

@@ -44,7 +44,7 @@ double rounding(const Case& a) {
   const fuzz::Extent extent = fuzz::extent_of(a.shape);
   double reach = static_cast<double>(extent.size * extent.condition) + a.ray.origin.norm();
   if (std::isfinite(a.ray.t_max)) reach += a.ray.t_max * a.ray.direction.norm();
-  return allowed * double(std::numeric_limits<double>::epsilon()) * reach;
+  return allowed * std::numeric_limits<double>::epsilon() * reach;
 }
 
 struct Counts {

@@ -12,8 +12,7 @@ using V = Vec3<double>;
 // Algorithm 1 was only tested with hits.
 TEST(Cast, of_every_solver_tells_hits_misses_and_insides_apart) {
   for (const SolverDescription& solver : solver_descriptions) {
-    CastOptions options;
-    options.solver = solver.kind;
+    const CastOptions options{solver.kind};
     for (const Shape& shape : {Shape(Sphere{1}), Shape(Cylinder{1, 1})}) {
       const PreparedShape prepared(shape);
       const auto cast = [&](const V& origin, const V& direction) {

@@ -55,16 +55,14 @@ EllipsoidTruth truth_of(const Vec3<double>& radii, const Ray<double>& ray) {
 
 Answered check_ellipsoid(const Vec3<double>& wanted, int rays) {
   Random random(7);
-  const Vec3<double> radii = wanted.cast<double>();
-  const PreparedShape prepared{Shape(Ellipsoid{radii})};
+  const PreparedShape prepared{Shape(Ellipsoid{wanted})};
   EXPECT_TRUE(prepared.definition().is_extreme());
   EXPECT_FALSE(prepared.definition().has_packets());
   Answered answered;
   for (int i = 0; i < rays; ++i) {
-    const Ray<double> exact = ray_at(radii.cast<double>(), random);
-    const Ray<double> ray{exact.origin.cast<double>(), exact.direction.cast<double>()};
-    const EllipsoidTruth truth = truth_of(radii, ray);
-    const CastResult<double> result = cast_ray(prepared, ray);
+    const Ray<double> exact = ray_at(wanted, random);
+    const EllipsoidTruth truth = truth_of(wanted, exact);
+    const CastResult<double> result = cast_ray(prepared, exact);
     if (result.status == Status::exhausted) {
       ++answered.exhausted;
       continue;
@@ -72,13 +70,13 @@ Answered check_ellipsoid(const Vec3<double>& wanted, int rays) {
     (result.status == Status::miss ? answered.misses : answered.hits) += 1;
     if (!truth.certain) continue;
     ++answered.compared;
-    EXPECT_EQ(result.found(), truth.hit) << wanted.transpose() << ", ray " << i;
+    EXPECT_EQ(result.found(), truth.hit) << wanted.transpose() << ", exact " << i;
     if (result.status != Status::hit || !truth.hit) continue;
     // Along the normal, in epsilons of the longest radius.
     const Long off = (Long(result.t_base) + Long(result.t_offset) - truth.t) *
-                     Long(ray.direction.dot(result.normal));
-    EXPECT_LE(std::abs(off), 64 * std::numeric_limits<double>::epsilon() * radii.norm())
-        << wanted.transpose() << ", ray " << i;
+                     Long(exact.direction.dot(result.normal));
+    EXPECT_LE(std::abs(off), 64 * std::numeric_limits<double>::epsilon() * wanted.norm())
+        << wanted.transpose() << ", exact " << i;
   }
   return answered;
 }

@@ -9,6 +9,7 @@
 #include "core/cast/packet_cast.h"
 #include "core/shape_cast/shape_cast.h"
 #include "tests/support/random.h"
+#include "tests/support/shifted.h"
 
 namespace minkray::testing {
 namespace {
@@ -130,7 +131,7 @@ TEST(FlatShapes, are_met_in_their_planes) {
     const auto exact = status_of(flat, in_plane(axis, origin), in_plane(axis, direction), 1e-4L, t);
     if (!exact) continue;
     const PreparedShape shape(figure(points, random.below(2)));
-    const Ray<double> ray{origin.cast<double>(), direction.cast<double>()};
+    const Ray<double> ray{origin, direction};
     const CastResult<double> answer = cast_ray(shape, ray);
     ASSERT_EQ(name_of(answer.status), name_of(*exact)) << i;
     RayPacket packet;
@@ -142,7 +143,7 @@ TEST(FlatShapes, are_met_in_their_planes) {
     ASSERT_EQ(lane.normal, answer.normal) << i;
     ++(*exact == Status::hit ? hits : *exact == Status::inside ? insides : misses);
     if (*exact != Status::hit) continue;
-    const double tolerance = 300 * double(std::numeric_limits<double>::epsilon());
+    const double tolerance = 300 * std::numeric_limits<double>::epsilon();
     const double slope = std::abs(double(answer.normal.dot(ray.direction)));
     ASSERT_LE(std::abs(double(answer.t()) - double(t)) * std::max(slope, 1e-3), tolerance) << i;
     const Vec3<double> n = answer.normal;
@@ -175,11 +176,9 @@ TEST(FlatShapes, meet_others_in_the_same_plane) {
     Long t = 0;
     const auto exact = status_of(differences, P::Zero(), in_plane(axis, direction), 1e-4L, t);
     if (!exact) continue;
-    const PreparedPair pair(
-        centred(figure(a, 0)),
-        centred(figure(b, 0), Affine<double>{Mat3<double>::Identity(), shift.cast<double>()}));
+    const PreparedPair pair(centred(figure(a, 0)), centred(figure(b, 0), shifted_by(shift)));
     const ShapeCastResult answer =
-        cast_shape(pair, direction.cast<double>(), std::numeric_limits<double>::infinity());
+        cast_shape(pair, direction, std::numeric_limits<double>::infinity());
     ASSERT_EQ(name_of(answer.cast.status), name_of(*exact)) << i;
     ++(*exact == Status::hit ? hits : *exact == Status::inside ? insides : misses);
   }

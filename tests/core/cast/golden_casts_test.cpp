@@ -91,11 +91,10 @@ Ray<double> cut(Ray<double> ray, Random& random) {
 
 void cast_all(const Shape& shape, const Affine<double>& pose, AllBits& bits) {
   const Shape placed = Transform{shape, AffineMap(pose)};
-  const Shape rounded = placed;
-  const PreparedShape prepared(rounded);
-  const SupportFunction support = supports_of(rounded);
+  const PreparedShape prepared(placed);
+  const SupportFunction support = supports_of(placed);
   for (const RayFamilyDescription& family : ray_families) {
-    FamilyRays rays(rounded, family.family, 2004);
+    FamilyRays rays(placed, family.family, 2004);
     Random random(17);
     RayPacket packet;
     for (int i = 0; i < rays_each; ++i) {
@@ -113,9 +112,8 @@ void cast_all(const Shape& shape, const Affine<double>& pose, AllBits& bits) {
       }
       if (i < proven_rays_each) {
         const Claim claim = claim_of(cast_ray(prepared, ray));
-        const Ray<double> proven = ray;
-        const Certificate proof = certify(support, proven, claim);
-        bits["proof"].add(proof, check_certificate(support, proven, claim, proof));
+        const Certificate proof = certify(support, ray, claim);
+        bits["proof"].add(proof, check_certificate(support, ray, claim, proof));
       }
       packet.set(i % packet_lanes, ray);
       if (i % packet_lanes < packet_lanes - 1) continue;

@@ -79,15 +79,14 @@ void compare(const Polytope& polytope, RayFamily family, int count, bool detour 
   int hits = 0, misses = 0;
   for (int i = 0; i < count; ++i) {
     const Ray<double> ray = rays.next();
-    const Ray<double> same = ray;
-    const Vec3<Long> o = same.origin.cast<Long>(), d = same.direction.cast<Long>();
+    const Vec3<Long> o = ray.origin.cast<Long>(), d = ray.direction.cast<Long>();
     const HalfSpaces::Part grown = planes.clip(o, d, allowed), shrunk = planes.clip(o, d, -allowed);
     const CastResult<double> result = cast_ray(prepared, ray);
     const auto describe = [&] {
       std::ostringstream text;
       text.precision(17);
       text << i << ": " << name_of(result.status) << " at " << result.t() << ", origin "
-           << same.origin.transpose() << ", direction " << same.direction.transpose();
+           << ray.origin.transpose() << ", direction " << ray.direction.transpose();
       return text.str();
     };
     ASSERT_NE(result.status, Status::exhausted) << describe();
@@ -107,7 +106,7 @@ void compare(const Polytope& polytope, RayFamily family, int count, bool detour 
           << describe() << ", truly at " << double(planes.clip(o, d).lower);
       if (family == RayFamily::random) {
         EXPECT_NEAR(double(result.normal.cast<Long>().dot(shrunk.normal)), 1,
-                    1024 * double(std::numeric_limits<double>::epsilon()))
+                    1024 * std::numeric_limits<double>::epsilon())
             << describe();
       }
     } else if (shrunk.upper > 0) {

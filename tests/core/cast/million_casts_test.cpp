@@ -25,10 +25,9 @@ void expect_right(const MeasuredShape& measured, RayFamily family, int rays) {
   int hits = 0;
   for (int i = 0; i < rays; ++i) {
     const Ray<double> ray = source.next();
-    const Ray<double> same_ray = ray;
     const CastResult<double> answer = cast_ray(prepared, ray);
-    const Vec3<double> normal = cast_ray(prepared_same, same_ray).normal;
-    const Judgement judged = judge(same_ray, answer, judge.truth(same_ray, normal));
+    const Vec3<double> normal = cast_ray(prepared_same, ray).normal;
+    const Judgement judged = judge(ray, answer, judge.truth(ray, normal));
     ASSERT_NE(judged.verdict, Verdict::exhausted) << i;
     ASSERT_NE(judged.verdict, Verdict::undecided) << i;
     ASSERT_NE(judged.verdict, Verdict::wrong) << name_of(answer.status) << " at ray " << i;

@@ -67,7 +67,7 @@ std::vector<RayPacket> packets_at(const Shape& shape, int count) {
     for (int lane = 0; lane < packet_lanes; ++lane) {
       const double kind = random.uniform(0, 1);
       Ray<double> ray = kind < 0.6 ? near.next(1.4) : kind < 0.8 ? far.next(1.4) : inside.next(0.7);
-      Ray<double> cast_at{ray.origin.cast<double>(), ray.direction.cast<double>()};
+      Ray<double> cast_at{ray.origin, ray.direction};
       if (kind > 0.97) cast_at.direction.setZero();
       if (kind > 0.5 && kind < 0.55) cast_at.t_max = double(random.uniform(0, 2));
       packet.set(lane, cast_at);

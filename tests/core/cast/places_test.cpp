@@ -16,8 +16,10 @@
 #include "core/proof/check_certificate.h"
 #include "core/world/world.h"
 #include "tests/oracle/closed_form.h"
+#include "tests/oracle/quad.h"
 #include "tests/support/number_of_cases.h"
 #include "tests/support/ray_families.h"
+#include "tests/support/shifted.h"
 
 namespace minkray::testing {
 namespace {
@@ -239,11 +241,9 @@ TEST_P(Places, hold_the_truth) {
       Random random(1000 * seed + 7);
       const V place = in_grains(V(distance * random.direction()));
       const S here = Maker(seed, V::Zero()).of_kind(kind), there = Maker(seed, place).of_kind(kind);
-      const Shape fine = here;
-      const PreparedShape by_pose(here, Affine<double>{Mat3<double>::Identity(), place}),
-          in_shape(there);
+      const PreparedShape by_pose(here, shifted_by(place)), in_shape(there);
       Instances instances;
-      instances.add(here, Affine<double>{Mat3<double>::Identity(), place});
+      instances.add(here, shifted_by(place));
       const World world(std::move(instances));
       for (const RayFamily family : {RayFamily::random, RayFamily::grazing, RayFamily::camera}) {
         FamilyRays rays(here, family, seed);
@@ -254,7 +254,7 @@ TEST_P(Places, hold_the_truth) {
         for (int i = 0; i < 8; ++i) {
           Ray<double> ray = rays.next();
           ray.origin = in_grains(ray.origin);
-          const Truth truth = truth_of(fine, ray);
+          const Truth truth = truth_of(here, ray);
           if (truth.status == Status::exhausted) continue;
           ray.origin += place;
           const CastResult<double> found = cast_ray(i % 2 ? by_pose : in_shape, ray);
@@ -284,25 +284,6 @@ TEST_P(Places, hold_the_truth) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Places, ::testing::Range(0, int(Maker::kinds.size())));
 
-__extension__ using Quad = __float128;
-using QuadVector = std::array<Quad, 3>;
-
-/// The solution of m x = v, by Cramer's rule; for maps of ordinary condition.
-QuadVector solved(const Mat3<double>& m, const QuadVector& v) {
-  const auto cofactor = [&](int a, int b) {
-    const int i = (a + 1) % 3, j = (a + 2) % 3, k = (b + 1) % 3, l = (b + 2) % 3;
-    return Quad(m(i, k)) * Quad(m(j, l)) - Quad(m(i, l)) * Quad(m(j, k));
-  };
-  Quad determinant = 0;
-  for (int b = 0; b < 3; ++b) determinant += Quad(m(0, b)) * cofactor(0, b);
-  QuadVector x = {0, 0, 0};
-  for (int b = 0; b < 3; ++b) {
-    for (int a = 0; a < 3; ++a) x[std::size_t(b)] += cofactor(a, b) * v[std::size_t(a)];
-    x[std::size_t(b)] /= determinant;
-  }
-  return x;
-}
-
 /// A leaf, turned, scaled and turned again: one map after the other.
 struct Needle {
   S leaf;
@@ -318,26 +299,13 @@ struct Needle {
   V outward(const V& x) const { return maps[0] * (maps[1] * (maps[2] * x)) + place; }
 
   Truth truth_of(const Ray<double>& ray) const {
-    QuadVector o, d;
-    for (std::size_t i = 0; i < 3; ++i) {
-      o[i] = Quad(ray.origin[int(i)]) - Quad(place[int(i)]);
-      d[i] = Quad(ray.direction[int(i)]);
-    }
+    QuadVec o = quad(ray.origin) - quad(place), d = quad(ray.direction);
     for (const Mat3<double>& map : maps) {
-      o = solved(map, o);
-      d = solved(map, d);
+      o = solved(map.cast<Quad>(), o);
+      d = solved(map.cast<Quad>(), d);
     }
-    Quad od = 0, dd = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      od += o[i] * d[i];
-      dd += d[i] * d[i];
-    }
-    const Quad base = -od / dd;
-    Vec3<Long> at, along;
-    for (std::size_t i = 0; i < 3; ++i) {
-      at[int(i)] = static_cast<Long>(o[i] + base * d[i]);
-      along[int(i)] = static_cast<Long>(d[i]);
-    }
+    const Quad base = -o.dot(d) / d.squaredNorm();
+    const Vec3<Long> at = (o + base * d).cast<Long>(), along = d.cast<Long>();
     const Interval in = *line_in_shape(leaf, at, along);
     Truth truth;
     const Quad first = base + Quad(in.lower);

@@ -3,9 +3,7 @@
 // against bisection in long double: the hit, what is missed, and how many support calls it takes.
 #include <gtest/gtest.h>
 
-#include "core/cast/cast.h"
 #include "tests/support/cast_truth.h"
-#include "tests/support/ray_families.h"
 
 namespace minkray::testing {
 namespace {
@@ -30,53 +28,36 @@ struct Form {
   double slenderness() const { return radii.maxCoeff() / radii.minCoeff(); }
 };
 
-/// In units of the radii, the distance from the box is convex along the line: least where it no
-/// longer falls, and before that 1 at the hit.
-CastTruth truth_of(const Form& form, const Ray<double>& ray) {
-  const Vec3<Long> units = form.radii.cast<Long>();
-  const auto in_units = [&](const Vec3<double>& v) -> Vec3<Long> {
-    return v.cast<Long>().cwiseQuotient(units);
-  };
-  const Vec3<Long> h = in_units(form.half_extents), o = in_units(ray.origin),
-                   d = in_units(ray.direction);
-  const auto from_box = [&](Long t) -> Vec3<Long> {
+/// Distance from the box in units of the radii, along a line.
+struct FromBox {
+  Vec3<Long> units, h, o, d;
+
+  FromBox(const Form& form, const Ray<double>& ray)
+      : units(form.radii.cast<Long>()),
+        h(form.half_extents.cast<Long>().cwiseQuotient(units)),
+        o(ray.origin.cast<Long>().cwiseQuotient(units)),
+        d(ray.direction.cast<Long>().cwiseQuotient(units)) {}
+
+  Vec3<Long> at(Long t) const {
     const Vec3<Long> x = o + t * d;
     return x - x.cwiseMax(-h).cwiseMin(h);
-  };
-  const Long around = 2 * (h.norm() + 1) / d.norm();
-  const Long middle = -o.dot(d) / d.squaredNorm();
-  const Long least =
-      bisected(middle - around, middle + around, [&](Long t) { return from_box(t).dot(d) < 0; });
-  const double beside = static_cast<double>((from_box(least).norm() - 1) * units.maxCoeff());
-  if (beside > 0) return {false, beside, 0, Vec3<Long>::Zero()};
-  const Long t = bisected(middle - around, least, [&](Long at) { return from_box(at).norm() > 1; });
-  return {true, beside, t, from_box(t).cwiseQuotient(units).normalized()};
+  }
+  Long slope(Long t) const { return at(t).dot(d); }
+  Long outside(Long t) const { return (at(t).norm() - 1) * units.maxCoeff(); }
+  Vec3<Long> normal(Long t) const { return at(t).cwiseQuotient(units); }
+};
+
+CastTruth truth_of(const Form& form, const Ray<double>& ray) {
+  return truth_by_bisection(FromBox(form, ray), ray, form.half_extents.norm() + form.radii.norm());
 }
 
-/// The shape as T holds it.
-Form held(const Form& form) {
-  return {form.half_extents.cast<double>().cast<double>(),
-          form.radii.cast<double>().cast<double>()};
-}
+/// The model's own answers: closed forms come before it.
+const CastOptions by_model = {SolverKind::jet};
 
-void add_cast(CastOutcome& outcome, const Form& form, double R, const PreparedShape& prepared,
-              const Ray<double>& ray) {
-  const Ray<double> known = ray;
-  // The model's own answers: closed forms come before it.
-  CastOptions options;
-  options.solver = SolverKind::jet;
-  outcome.add(cast_ray(prepared, ray, options), truth_of(form, known), known.direction, R);
-}
-
-CastOutcome cast_at(const Form& wanted, RayFamily family, int count) {
-  const Form form = held(wanted);
-  const Shape same = form.shape();
-  const PreparedShape prepared(same);
-  FamilyRays rays(same, family, 83);
-  CastOutcome outcome;
-  for (int i = 0; i < count; ++i)
-    add_cast(outcome, form, rays.ball().radius, prepared, rays.next());
-  return outcome;
+CastOutcome cast_at(const Form& form, RayFamily family, int count) {
+  return cast_family(
+      form.shape(), family, count, [&](const Ray<double>& ray) { return truth_of(form, ray); },
+      by_model);
 }
 
 std::vector<Form> forms() {
@@ -106,66 +87,41 @@ std::string name_of(const Form& form) {
 /// Rounding error of a support plane: a few epsilon.
 constexpr double exactness = 4 * std::numeric_limits<double>::epsilon();
 
-void check_ordinary(RayFamily family) {
+class RoundedBoxes : public ::testing::TestWithParam<RayFamily> {};
+
+TEST_P(RoundedBoxes, are_hit_and_grazed_to_rounding) {
   int misses = 0;
   for (const Form& form : forms()) {
     SCOPED_TRACE(name_of(form));
-    const int count = 200;
-    const CastOutcome outcome = cast_at(form, family, count);
-    EXPECT_EQ(outcome.wrong, 0);
-    EXPECT_EQ(outcome.others, 0);
-    EXPECT_LE(outcome.worst, exactness * form.slenderness());
-    EXPECT_LE(outcome.unproven, exactness * form.slenderness());
+    const double allowed = exactness * form.slenderness();
+    const CastOutcome outcome = cast_at(form, GetParam(), 200);
+    expect_within(outcome, {allowed, allowed, 0});
     misses += outcome.misses;
   }
   EXPECT_GT(misses, 300);
 }
 
-TEST(RoundedBox, is_hit_to_rounding) {
-  check_ordinary(RayFamily::random);
-}
-
-TEST(RoundedBox, is_grazed_to_rounding) {
-  check_ordinary(RayFamily::grazing);
-}
+INSTANTIATE_TEST_SUITE_P(Families, RoundedBoxes,
+                         ::testing::Values(RayFamily::random, RayFamily::grazing));
 
 /// Rays along axes, edges and in the planes of faces, which they touch within rounding.
-void check_degenerate() {
+TEST(RoundedBox, is_hit_by_rays_along_its_edges_and_in_its_planes) {
   for (const Form& form : forms()) {
     SCOPED_TRACE(name_of(form));
-    const int count = 200;
-    const CastOutcome outcome = cast_at(form, RayFamily::degenerate, count);
-    EXPECT_EQ(outcome.wrong, 0);
-    EXPECT_EQ(outcome.others, 0);
-    EXPECT_GT(outcome.hits, 0);
-    EXPECT_LE(outcome.worst, 2 * exactness * form.slenderness());
+    expect_within(cast_at(form, RayFamily::degenerate, 200), {2 * exactness * form.slenderness()});
   }
-}
-
-TEST(RoundedBox, is_hit_by_rays_along_its_edges_and_in_its_planes) {
-  check_degenerate();
 }
 
 /// Rounded by no more than a few roundings of the box's size, it is a box.
-void check_hardly_rounded() {
+TEST(RoundedBox, that_is_hardly_rounded_is_hit_and_missed) {
   for (const double roundings : {0.3, 1.0, 5.0, 100.0, 1e4}) {
     SCOPED_TRACE(roundings);
     const Form form{{1, 0.7, 0.5}, roundings * std::numeric_limits<double>::epsilon()};
-    for (const RayFamily family : {RayFamily::random, RayFamily::grazing, RayFamily::degenerate}) {
-      const CastOutcome outcome = cast_at(form, family, 500);
-      EXPECT_EQ(outcome.wrong, 0);
-      EXPECT_EQ(outcome.others, 0);
-      if (family != RayFamily::degenerate) {
-        EXPECT_LE(outcome.worst, exactness);
-      } else {
-        EXPECT_LE(outcome.worst, static_cast<double>(tolerance::gjk_stalled<double>));
-      }
-    }
+    for (const auto& [family, allowed] : {std::pair(RayFamily::random, exactness),
+                                          {RayFamily::grazing, exactness},
+                                          {RayFamily::degenerate, tolerance::gjk_stalled<double>}})
+      expect_within(cast_at(form, family, 500), {allowed});
   }
-}
-
-TEST(RoundedBox, that_is_hardly_rounded_is_hit_and_missed) {
-  check_hardly_rounded();
 }
 
 /// The ray falls towards the far edge's cylinder or corner's ball, whose normal leans with it:
@@ -174,8 +130,8 @@ TEST(RoundedBox, that_is_hardly_rounded_is_hit_and_missed) {
 ///     ______ ----___
 ///    |      \       ---
 ///    |       |
-void check_far_sides() {
-  const Form form = held({{1, 0.7, 0.5}, 0.2});
+TEST(RoundedBox, is_hit_on_sides_that_lean_with_the_ray) {
+  const Form form{{1, 0.7, 0.5}, 0.2};
   const PreparedShape prepared(form.shape());
   const double R = form.half_extents.norm() + form.radii.x();
   Random random(17);
@@ -187,17 +143,10 @@ void check_far_sides() {
     const double fall = std::pow(10.0, random.uniform(-2, -0.5));
     const Vec3<double> r = (across - n * fall).normalized();
     const Vec3<double> at = form.half_extents.cwiseProduct(n.cwiseSign()) + n * form.radii.x();
-    add_cast(outcome, form, R, prepared, Ray<double>{at - 5 * R * r, r});
+    const Ray<double> ray{at - 5 * R * r, r};
+    outcome.add(cast_ray(prepared, ray, by_model), truth_of(form, ray), r, R);
   }
-  EXPECT_EQ(outcome.wrong, 0);
-  EXPECT_EQ(outcome.others, 0);
-  EXPECT_EQ(outcome.misses, 0);
-  EXPECT_LE(outcome.worst, exactness);
-  EXPECT_LE(outcome.unproven, exactness);
-}
-
-TEST(RoundedBox, is_hit_on_sides_that_lean_with_the_ray) {
-  check_far_sides();
+  expect_within(outcome, {exactness, exactness, count});
 }
 
 TEST(RoundedBox, is_hit_by_rays_parallel_to_an_edge_on_the_corners_ball) {

@@ -8,6 +8,7 @@
 #include "core/derived/shape_bounds.h"
 #include "tests/fuzz/cast_promises.h"
 #include "tests/support/random.h"
+#include "tests/support/shifted.h"
 #include "tests/support/solvers.h"
 
 namespace minkray::testing {
@@ -17,8 +18,8 @@ Triangle triangle_from(Random& random) {
   const Vec3<double> from = 2 * random.in_cube(), along = random.direction(),
                      across = along.unitOrthogonal() * std::exp2(random.uniform(-7, 0));
   Triangle triangle;
-  triangle.points = {from.cast<double>(), Vec3<double>(from + along).cast<double>(),
-                     Vec3<double>(from + along * random.uniform() + across).cast<double>()};
+  triangle.points = {from, Vec3<double>(from + along),
+                     Vec3<double>(from + along * random.uniform() + across)};
   return triangle;
 }
 
@@ -27,7 +28,7 @@ Hull hull_from(Random& random) {
   for (int i = 0; i < 24; ++i) {
     Vec3<double> p = random.direction();
     if (i % 3 == 0) p.z() = 0.5;  // a face of many corners
-    points.push_back(p.cast<double>());
+    points.push_back(p);
   }
   return {PointCloud(points)};
 }
@@ -37,15 +38,14 @@ Nested nested(const Shape& shape) {
 }
 
 Nested at(const Shape& shape, const Vec3<double>& where) {
-  return nested(
-      Transform{nested(shape), Affine<double>{Mat3<double>::Identity(), where.cast<double>()}});
+  return nested(Transform{nested(shape), shifted_by(where)});
 }
 
 /// Shapes with flat faces or straight sides, by each of the ways to an answer.
 std::vector<std::pair<std::string, Shape>> shapes_with_faces(Random& random) {
-  const auto size = [&] { return static_cast<double>(random.uniform(0.1, 1)); };
+  const auto size = [&] { return random.uniform(0.1, 1); };
   const Triangle triangle = triangle_from(random);
-  const Vec3<double> segment = random.direction().cast<double>();
+  const Vec3<double> segment = random.direction();
   return {
       {"triangle", triangle},
       {"triangle and ball", HullOf{{nested(triangle), at(Sphere{size() / 4}, random.in_cube())}}},
@@ -53,7 +53,7 @@ std::vector<std::pair<std::string, Shape>> shapes_with_faces(Random& random) {
        MinkowskiSum{{nested(triangle), nested(Segment{{Vec3<double>::Zero(), segment}})}}},
       {"hull", hull_from(random)},
       {"hull, hardly rounded",
-       Rounded{static_cast<double>(std::exp2(random.uniform(-12, -3))), nested(hull_from(random))}},
+       Rounded{std::exp2(random.uniform(-12, -3)), nested(hull_from(random))}},
       {"box", Box{{size(), size(), size()}}},
       {"cylinder", Cylinder{size(), size()}},
       {"cone and box",
@@ -71,18 +71,17 @@ bool make_steep(const Shape& shape, const PreparedShape& prepared, Random& rando
   const Vec3<double> from = bounds.centre() + 10 * random.direction(),
                      way = bounds.centre() + random.in_cube().cwiseProduct(bounds.half_extents()) -
                            from;
-  const CastResult<double> hit = cast_ray(
-      prepared, {from.cast<double>(), way.cast<double>(), std::numeric_limits<double>::infinity()},
-      {});
+  const CastResult<double> hit =
+      cast_ray(prepared, {from, way, std::numeric_limits<double>::infinity()}, {});
   if (hit.status != Status::hit) return false;
-  const Vec3<double> n = hit.normal.cast<double>(), a = n.unitOrthogonal(), b = n.cross(a);
+  const Vec3<double> n = hit.normal, a = n.unitOrthogonal(), b = n.cross(a);
   const auto aside = [&]() -> Vec3<double> {
     const double angle = random.uniform(0, 6.28);
     return std::cos(angle) * a + std::sin(angle) * b;
   };
   const auto corner = [&]() -> Vec3<double> {
-    const Vec3<double> tilted = Vec3<double>(n + 1e-5 * aside()).cast<double>();
-    return shape.support(tilted).cast<double>();
+    const Vec3<double> tilted = Vec3<double>(n + 1e-5 * aside());
+    return shape.support(tilted);
   };
   Vec3<double> point = from + double(hit.t()) * way;
   if (random.below(4)) {
@@ -91,8 +90,8 @@ bool make_steep(const Shape& shape, const PreparedShape& prepared, Random& rando
   }
   const double slope = std::pow(10, random.uniform(-13, -1));
   const Vec3<double> direction = aside() - slope * n;
-  ray.origin = Vec3<double>(point - random.uniform(0.1, 30) * direction).cast<double>();
-  ray.direction = direction.cast<double>();
+  ray.origin = Vec3<double>(point - random.uniform(0.1, 30) * direction);
+  ray.direction = direction;
   ray.t_max = std::numeric_limits<double>::infinity();
   return true;
 }
@@ -108,8 +107,7 @@ void check_steep_rays(std::uint64_t seed, int rounds) {
         if (!make_steep(shape, prepared, random, ray)) continue;
         fuzz::CastReferee referee(shape, ray);
         for (const SolverDescription& solver : accurate_solvers()) {
-          CastOptions options;
-          options.solver = solver.kind;
+          const CastOptions options{solver.kind};
           const CastResult<double> entry = cast_ray(prepared, ray, options),
                                    exit = cast_exit(prepared, ray, options);
           EXPECT_EQ(referee.check(solver.name, entry), "") << name << ", round " << round;

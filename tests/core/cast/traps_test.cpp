@@ -41,8 +41,7 @@ void cast_with_traps(SolverKind solver, std::span<const std::string_view> left_o
                      int fewest_shapes) {
   constexpr int rays_each = 200;
   int shapes = 0, hits = 0, casts = 0;
-  CastOptions options;
-  options.solver = solver;
+  const CastOptions options{solver};
   for (const SampleShape& sample : sample_shapes()) {
     if (is_of(left_out, sample.name)) continue;
     ++shapes;

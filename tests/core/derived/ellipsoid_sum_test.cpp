@@ -18,22 +18,21 @@ double rounding_of(const Shape& shape) {
 }
 
 void check(const Shape& sample, std::string_view name) {
-  const Shape shape = sample;
-  const double rounding = rounding_of(shape);
+  const double rounding = rounding_of(sample);
   Random random(29);
   for (int i = 0; i < 40; ++i) {
-    Vec3<double> n = random.direction().cast<double>();
+    Vec3<double> n = random.direction();
     if (i % 4 == 0) n[i / 4 % 3] = 0.0;
     if (i % 8 == 0) n[(i / 4 + 1) % 3] = 0.0;
     n.normalize();
-    const EllipsoidSum<double> part = touching_sum<double>(shape, n);
-    const Vec3<double> support = shape.support(n);
+    const EllipsoidSum<double> part = touching_sum<double>(sample, n);
+    const Vec3<double> support = sample.support(n);
     ASSERT_NEAR(n.dot(part.s), n.dot(support), rounding) << name;
     ASSERT_NEAR(part.support_function(n), n.dot(support), rounding) << name;
     if (!part.exact) continue;
     for (int j = 0; j < 40; ++j) {
-      const Vec3<double> m = random.direction().cast<double>();
-      ASSERT_LE(part.support_function(m), m.dot(shape.support(m)) + rounding) << name;
+      const Vec3<double> m = random.direction();
+      ASSERT_LE(part.support_function(m), m.dot(sample.support(m)) + rounding) << name;
     }
   }
 }

@@ -104,8 +104,7 @@ TEST(Recentred, a_small_disk_far_out_in_a_sum_is_hit_by_all_solvers) {
   const Ray<double> ray{{1.005653442745567, -0.004889244888332973, 5.449373823054858},
                         {-1.0028267213727835, 0.0024446224441664866, -5.448136618558679}};
   for (const SolverKind solver : {SolverKind::automatic, SolverKind::jet, SolverKind::paper}) {
-    CastOptions options;
-    options.solver = solver;
+    const CastOptions options{solver};
     const CastResult<double> answer = cast_ray(PreparedShape(shape), ray, options);
     // The error of the place exceeds the size.
     EXPECT_NE(answer.status, Status::miss) << static_cast<int>(solver);

@@ -9,6 +9,7 @@
 #include "core/files/mesh_file.h"
 #include "core/files/mtl_file.h"
 #include "tests/support/meshes.h"
+#include "tests/support/messages.h"
 
 namespace minkray {
 namespace {
@@ -59,7 +60,7 @@ TEST(MeshAttributes, that_are_wrong_are_left_out_and_counted) {
     EXPECT_EQ(found.normal_of, (std::vector<Numbers>{MeshAttributes::no_numbers, {0, 0, 0}}))
         << face;
     ASSERT_EQ(notes_of(found).size(), 1u);
-    EXPECT_NE(notes_of(found)[0].find("normals of 1 triangle"), std::string::npos);
+    EXPECT_TRUE(has(notes_of(found)[0], "normals of 1 triangle"));
   }
   const MeshAttributes found =
       attributes_of_obj(std::string(obj_square) + "vt 0 inf\nf 1/1 2/1 3/1\n");

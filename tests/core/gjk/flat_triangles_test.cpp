@@ -3,42 +3,35 @@
 #include <gtest/gtest.h>
 
 #include "core/gjk/closest_point.h"
+#include "tests/oracle/quad.h"
 #include "tests/support/random.h"
 
 namespace minkray {
 namespace {
 
+using testing::Quad;
+using testing::QuadVec;
 using testing::Random;
-__extension__ using Quad = __float128;
-using QuadPoint = std::array<Quad, 3>;
 
-Quad dot(const QuadPoint& a, const QuadPoint& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-QuadPoint plus(const QuadPoint& a, const QuadPoint& b, Quad times) {
-  return {a[0] + times * b[0], a[1] + times * b[1], a[2] + times * b[2]};
-}
-
-QuadPoint nearest_of_edge(const QuadPoint& a, const QuadPoint& b) {
-  const QuadPoint e = plus(b, a, -1);
-  const Quad squared = dot(e, e);
-  if (!(squared > 0)) return a;
-  const Quad k = -dot(a, e) / squared;
-  return plus(a, e, k < 0 ? Quad(0) : k > 1 ? Quad(1) : k);
+QuadVec nearest_of_edge(const QuadVec& a, const QuadVec& b) {
+  const QuadVec e = b - a;
+  if (!(e.squaredNorm() > 0)) return a;
+  const Quad k = -a.dot(e) / e.squaredNorm();
+  return a + (k < 0 ? Quad(0) : k > 1 ? Quad(1) : k) * e;
 }
 
 /// In 113 bits, by the edges and the foot on the face.
-QuadPoint nearest_of_triangle(const QuadPoint& a, const QuadPoint& b, const QuadPoint& c) {
-  QuadPoint best = nearest_of_edge(a, b);
-  for (const QuadPoint& other : {nearest_of_edge(b, c), nearest_of_edge(c, a)})
-    if (dot(other, other) < dot(best, best)) best = other;
-  const QuadPoint e = plus(b, a, -1), f = plus(c, a, -1);
-  const Quad ee = dot(e, e), ef = dot(e, f), ff = dot(f, f), ea = -dot(e, a), fa = -dot(f, a);
+QuadVec nearest_of_triangle(const QuadVec& a, const QuadVec& b, const QuadVec& c) {
+  QuadVec best = nearest_of_edge(a, b);
+  for (const QuadVec& other : {nearest_of_edge(b, c), nearest_of_edge(c, a)})
+    if (other.squaredNorm() < best.squaredNorm()) best = other;
+  const QuadVec e = b - a, f = c - a;
+  const Quad ee = e.dot(e), ef = e.dot(f), ff = f.dot(f), ea = -e.dot(a), fa = -f.dot(a);
   const Quad determinant = ee * ff - ef * ef;
   if (!(determinant > 0)) return best;
   const Quad u = (ff * ea - ef * fa) / determinant, w = (ee * fa - ef * ea) / determinant;
   if (u < 0 || w < 0 || u + w > 1) return best;
-  return plus(plus(a, e, u), f, w);
+  return a + u * e + w * f;
 }
 
 /// Returns the error of the point that was found, by the distance: the worst of slivers with such
@@ -53,19 +46,16 @@ double worst_error(double least_power, double most_power) {
     const double sine = std::exp2(random.uniform(least_power, most_power));
     const double foot = random.uniform(0.3, 0.7), top = random.uniform(0.3, 0.7);
     const Vec3<double> from = up - foot * along - sine * random.uniform(0, 0.5) * across;
-    const std::array<Vec3<double>, 3> y = {
-        from.cast<double>(), Vec3<double>(from + along).cast<double>(),
-        Vec3<double>(from + top * along + sine * across).cast<double>()};
+    const std::array<Vec3<double>, 3> y = {from, Vec3<double>(from + along),
+                                           Vec3<double>(from + top * along + sine * across)};
     SimplexPoints<double> simplex;
     simplex.y[0] = y[0], simplex.y[1] = y[1], simplex.y[2] = y[2];
     simplex.size = 3;
     const Vec3<double> v = closest_point(simplex).v;
-    std::array<QuadPoint, 3> exact;
-    for (std::size_t k = 0; k < 3; ++k) exact[k] = {Quad(y[k][0]), Quad(y[k][1]), Quad(y[k][2])};
-    const QuadPoint nearest = nearest_of_triangle(exact[0], exact[1], exact[2]);
-    const QuadPoint found = {Quad(v[0]), Quad(v[1]), Quad(v[2])};
-    const QuadPoint off = plus(found, nearest, -1);
-    worst = std::max(worst, std::sqrt(static_cast<double>(dot(off, off) / dot(nearest, nearest))));
+    const QuadVec nearest =
+        nearest_of_triangle(testing::quad(y[0]), testing::quad(y[1]), testing::quad(y[2]));
+    const Quad off = (testing::quad(v) - nearest).squaredNorm() / nearest.squaredNorm();
+    worst = std::max(worst, std::sqrt(static_cast<double>(off)));
   }
   return worst;
 }

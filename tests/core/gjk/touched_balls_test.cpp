@@ -12,8 +12,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 TEST(TouchedBalls, rays_that_begin_at_a_surface_do_not_hit_it_where_they_begin) {
   const PreparedShape ball(Shape(Sphere{1}));
   for (const SolverKind solver : {SolverKind::paper, SolverKind::first_solution}) {
-    CastOptions options;
-    options.solver = solver;
+    const CastOptions options{solver};
     for (int roundings = -8; roundings <= 12; ++roundings) {
       const Ray<double> ray{{1 + roundings * epsilon, 0, 0}, {0, 1, 0}};
       const CastResult<double> answer = cast_ray(ball, ray, options);
@@ -27,8 +26,7 @@ TEST(TouchedBalls, rays_through_a_ball_do_not_miss_it_however_short_the_way) {
   const PreparedShape ball(Shape(Sphere{1}));
   for (const SolverKind solver : {SolverKind::automatic, SolverKind::jet, SolverKind::portal,
                                   SolverKind::paper, SolverKind::first_solution}) {
-    CastOptions options;
-    options.solver = solver;
+    const CastOptions options{solver};
     for (int roundings = 1; roundings <= 30; ++roundings) {
       const Ray<double> ray{{-3, 1 - roundings * epsilon, 0}, {1, 0, 0}};
       const CastResult<double> answer = cast_ray(ball, ray, options);

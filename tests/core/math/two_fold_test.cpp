@@ -4,21 +4,19 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/oracle/quad.h"
 #include "tests/support/random.h"
 
 namespace minkray::testing {
 namespace {
 
-__extension__ using Quad = __float128;
 using M = Mat3<double>;
 using V = Vec3<double>;
 
+using minkray::testing::quad;
+
 Quad quad(const TwoFold<double>& x) {
   return Quad(x.high) + Quad(x.low);
-}
-
-double size_of(Quad x) {
-  return std::abs(static_cast<double>(x));
 }
 
 TEST(TwoFold, differences_are_exact) {
@@ -35,11 +33,8 @@ TEST(TwoFold, points_go_there_and_back) {
   for (int i = 0; i < 1000; ++i) {
     const Affine<double> map{random.rotation(), random.in_cube() * 1e9};
     const TwoFoldVec3<double> x(random.in_cube()), image = image_of(map, x);
-    for (int k = 0; k < 3; ++k) {
-      Quad exact = Quad(map.translation[k]);
-      for (int j = 0; j < 3; ++j) exact += Quad(map.linear(k, j)) * Quad(x.high[j]);
-      EXPECT_LE(size_of(quad(image[k]) - exact), 0x1p-100 * 1e9);
-    }
+    const QuadVec exact = quad(map.translation) + map.linear.cast<Quad>() * quad(x.high);
+    for (int k = 0; k < 3; ++k) EXPECT_LE(size_of(quad(image[k]) - exact[k]), 0x1p-100 * 1e9);
     const TwoFoldVec3<double> back = image - TwoFoldVec3<double>(map.translation);
     const V near = TwoFoldMat3<double>(M(map.linear.transpose())).high * back.rounded();
     EXPECT_LE((near - x.high).norm(), 4e-15);  // rotations are so far from orthogonal

@@ -7,6 +7,7 @@
 
 #include "core/mesh/exact_sign.h"
 #include "core/mesh/perturbed_line.h"
+#include "tests/oracle/quad.h"
 #include "tests/support/meshes.h"
 #include "tests/support/number_of_cases.h"
 #include "tests/support/random.h"
@@ -86,7 +87,9 @@ long double winding(const TriangleMesh& mesh, const Vec3<long double>& at) {
   return sum / (2 * std::numbers::pi_v<long double>);
 }
 
-__extension__ using Quad = __float128;
+using testing::quad;
+using testing::Quad;
+using testing::QuadVec;
 
 /// Finds where the ray's line passes the plane of a triangle, in quadruple precision, to
 /// `rounding`.
@@ -94,23 +97,17 @@ struct TrueT {
   Quad t, rounding;
 };
 TrueT t_of(const TriangleMesh& mesh, std::uint32_t part, const Ray<double>& ray) {
-  Quad a[3], u[3], v[3], height = 0, fall = 0, size = 0;
-  for (int k = 0; k < 3; ++k) {
-    const Quad corner = mesh.corner(part, 0)[k];
-    a[k] = corner - Quad(ray.origin[k]);
-    u[k] = Quad(mesh.corner(part, 1)[k]) - corner;
-    v[k] = Quad(mesh.corner(part, 2)[k]) - corner;
-  }
+  const QuadVec corner = quad(mesh.corner(part, 0)), a = corner - quad(ray.origin),
+                u = quad(mesh.corner(part, 1)) - corner, v = quad(mesh.corner(part, 2)) - corner,
+                n = u.cross(v);
+  Quad size = 0;
   for (int k = 0; k < 3; ++k) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
-    const Quad n = u[i] * v[j] - u[j] * v[i];
-    height += n * a[k];
-    fall += n * Quad(ray.direction[k]);
     const double of_n = double(u[i]) * double(v[j]), of_a = double(a[k]);
     size += std::abs(of_n * of_a) + std::abs(double(u[j]) * double(v[i]) * of_a);
   }
-  const Quad slope = fall < 0 ? -fall : fall;
-  return {height / fall, Quad(0x1p-108) * size / slope};
+  const Quad fall = n.dot(quad(ray.direction));
+  return {n.dot(a) / fall, Quad(0x1p-108) * size / testing::size_of(fall)};
 }
 
 struct Checked {
@@ -294,18 +291,10 @@ TEST(PerturbedLine, sides_are_those_of_a_line_nearby) {
     // The line through the edge itself, or parallel to it, needs the smallest moves only.
     const Vec3<double> e = b - a;
     const bool is_parallel = d.cross(e).isZero(0);
-    const Quad m = Quad(0x1p-12), e1 = Quad(0x1p-36), e2 = e1 * e1, e3 = e1 * e2,
-               f = is_parallel ? Quad(1) : Quad(0);
-    const Quad turn[3] = {f, f * m, f * m * m}, move[3] = {e1, e2, e3};
-    Quad from[3], edge[3], along[3];
-    for (int k = 0; k < 3; ++k) {
-      from[k] = Quad(a[k]) - Quad(o[k]) - move[k];
-      edge[k] = Quad(e[k]);
-      along[k] = (is_parallel ? Quad(0) : Quad(d[k])) + turn[k];
-    }
-    const Quad volume = along[0] * (from[1] * edge[2] - from[2] * edge[1]) +
-                        along[1] * (from[2] * edge[0] - from[0] * edge[2]) +
-                        along[2] * (from[0] * edge[1] - from[1] * edge[0]);
+    const Quad m = Quad(0x1p-12), e1 = Quad(0x1p-36), e2 = e1 * e1, e3 = e1 * e2;
+    const QuadVec from = quad(a) - quad(o) - QuadVec(e1, e2, e3),
+                  along = is_parallel ? QuadVec(1, m, m * m) : quad(d);
+    const Quad volume = along.dot(from.cross(quad(e)));
     ASSERT_EQ(side, volume > 0 ? 1 : volume < 0 ? -1 : 0) << i;
   }
   EXPECT_GT(zero, 1000);

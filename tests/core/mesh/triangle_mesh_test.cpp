@@ -5,17 +5,14 @@
 
 #include "core/mesh/weld.h"
 #include "tests/support/meshes.h"
+#include "tests/support/messages.h"
 
 namespace minkray {
 namespace {
 
 std::string refused(std::vector<Vec3<double>> vertices, std::vector<Corners> triangles) {
-  try {
-    TriangleMesh(std::move(vertices), std::move(triangles));
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
+  return message_of<std::invalid_argument>(
+      [&] { TriangleMesh(std::move(vertices), std::move(triangles)); });
 }
 
 TEST(TriangleMesh, refuses_what_is_none_and_says_where) {

@@ -7,6 +7,7 @@
 
 #include "core/pair_motion/impact.h"
 #include "tests/core/pair_distance/pair_judge.h"
+#include "tests/support/shifted.h"
 
 namespace minkray::testing {
 namespace {
@@ -37,8 +38,7 @@ TEST(PairMemory, garbage_in_it_changes_no_promise) {
     const RandomPair pair =
         random_pair(k % kinds_of_bodies, k / kinds_of_bodies % kinds_of_bodies, k, random);
     PairMemory memory = garbage(k, random);
-    const SignedDistance result =
-        signed_distance(pair.a.ready, pair.a.pose, pair.b.ready, pair.b.pose, memory);
+    const SignedDistance result = signed_distance(pair.a, pair.b, memory);
     ASSERT_EQ(complaint(pair.a, pair.b, result, random), "") << k;
     separated += result.status == SignedStatus::separated;
     overlapping += result.status == SignedStatus::overlapping;
@@ -46,10 +46,9 @@ TEST(PairMemory, garbage_in_it_changes_no_promise) {
     SignedDistanceOptions sign;
     sign.only_sign = true;
     memory = garbage(k, random);
-    const SignedDistance signs =
-        signed_distance(pair.a.ready, pair.a.pose, pair.b.ready, pair.b.pose, memory, sign);
+    const SignedDistance signs = signed_distance(pair.a, pair.b, memory, sign);
     ASSERT_LE(signs.lower, result.upper) << k;
-    const double size = pair.a.ready.ball_radius() + pair.b.ready.ball_radius();
+    const double size = size_of(pair.a, pair.b);
     if (std::abs(result.value) > 1e-9 * size) {
       ASSERT_EQ(signs.status, result.status) << k;
     }
@@ -61,8 +60,7 @@ TEST(PairMemory, garbage_in_it_changes_no_promise) {
 TEST(PairMemory, corners_of_one_plane_in_it_are_not_taken_for_an_overlap) {
   // Four corners of two boxes' faces, in one plane with the origin: rounding alone decides if that
   // is inside of their tetrahedron.
-  const Body a(Shape(Box{{1, 1, 1}}), {}),
-      b(Shape(Box{{1, 1, 1}}), {Mat3<double>::Identity(), Vec3<double>(5, 0.3, 0.1)});
+  const Body a(Shape(Box{{1, 1, 1}}), {}), b(Shape(Box{{1, 1, 1}}), shifted_by(5, 0.3, 0.1));
   RandomShapes random(5);
   for (int k = 0; k < 4096; ++k) {
     PairMemory memory;
@@ -74,7 +72,7 @@ TEST(PairMemory, corners_of_one_plane_in_it_are_not_taken_for_an_overlap) {
     }
     SignedDistanceOptions sign;
     sign.only_sign = k % 2 == 0;
-    const SignedDistance result = signed_distance(a.ready, a.pose, b.ready, b.pose, memory, sign);
+    const SignedDistance result = signed_distance(a, b, memory, sign);
     ASSERT_EQ(result.status, SignedStatus::separated) << k;
     ASSERT_NEAR(result.value, 3, 1e-12) << k;
   }
@@ -91,15 +89,14 @@ TEST(PairMemory, of_bodies_that_tumble_saves_supports_and_changes_no_promise) {
                        axis = random.direction();
     PairMemory memory;
     for (int frame = 0; frame < frames; ++frame) {
-      const SignedDistance result =
-          signed_distance(pair.a.ready, pair.a.pose, pair.b.ready, pair.b.pose, memory);
+      const SignedDistance result = signed_distance(pair.a, pair.b, memory);
       ASSERT_EQ(complaint(pair.a, pair.b, result, random), "") << n << ", frame " << frame;
       // Nothing is kept of bodies known by their support mapping only.
       const bool is_known = pair.a.ready.core().kind != CoreKind::other &&
                             pair.b.ready.core().kind != CoreKind::other;
       if (frame > 0 && is_known && result.status == SignedStatus::separated) {
         kept += result.supports;
-        anew += signed_distance(pair.a.ready, pair.a.pose, pair.b.ready, pair.b.pose).supports;
+        anew += signed_distance(pair.a, pair.b).supports;
       }
       pair.b.pose.translation += velocity;
       pair.b.pose.linear =

@@ -83,13 +83,12 @@ class DerivativeJudge {
         core_b_(without_radius(b.shape)),
         a_{&core_a_.shape, a.pose.cast<Long>()},
         b_{&core_b_.shape, b.pose.cast<Long>()},
-        size_(a.ready.ball_radius() + b.ready.ball_radius()),
+        size_(size_of(a, b)),
         random_(random) {
     // Far from the origin long double has few digits, too.
     b_.pose.translation -= a_.pose.translation;
     a_.pose.translation.setZero();
-    const SignedDistance found =
-        signed_distance(a.ready, a.pose, b.ready, b.pose, for_derivatives());
+    const SignedDistance found = signed_distance(a, b, for_derivatives());
     if (found.is_unknown() || !(size_ > 0)) return;
     const PairDerivative derivative =
         derivative_of(a.ready, a.pose, b.ready, b.pose, found, &bounds_);
@@ -255,7 +254,7 @@ inline RandomPair derived_pair(int i, int j, int k, RandomShapes& random) {
   RandomPair pair{Body(derived_shape(i, scale, random), {random.turn(), origin}),
                   Body(derived_shape(j, scale, random), {random.turn(), origin})};
   Body& b = pair.b;
-  const double size = pair.a.ready.ball_radius() + b.ready.ball_radius() + scale;
+  const double size = size_of(pair.a, b) + scale;
   b.pose.translation += random.in(0, 1.3) * size * random.direction();
   if (k % 6 == 2) {
     const double left = std::pow(10, random.in(-6, -2));

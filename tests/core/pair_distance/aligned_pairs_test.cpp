@@ -25,14 +25,14 @@ TEST(AlignedPairs, are_settled_but_for_corners_on_axes_and_those_say_so) {
     const Body a(one, {turn_a, Vec3<double>::Zero()}), b(other, {turn_b, grid_point(random)});
     SignedDistanceOptions options;
     options.max_supports = 10000;
-    const SignedDistance found = signed_distance(a.ready, a.pose, b.ready, b.pose, options);
+    const SignedDistance found = signed_distance(a, b, options);
     overlapping += found.status == SignedStatus::overlapping;
     if (!found.is_exhausted) {
       ASSERT_EQ(testing::complaint(a, b, found, judge), "") << k;
       continue;
     }
     ++exhausted;
-    const double size = a.ready.ball_radius() + b.ready.ball_radius();
+    const double size = testing::size_of(a, b);
     ASSERT_LE(found.lower, testing::gap(a, b, found.normal) + 1e-14 * size) << k;
     ASSERT_GE(found.upper, testing::best_gap(a, b, found.normal, judge) - 1e-14 * size) << k;
     ASSERT_LE(found.upper - found.lower, 1e-3 * size) << k;

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "tests/core/pair_distance/pair_judge.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -83,15 +84,14 @@ Body beside(int kind, const P& at, const P& normal, double away, const Mat3<doub
   const double side = random.in(0, 1) < 0.5 ? 1 : -1, r = random.in(0.1, 1);
   switch (kind) {
     case 0:
-      return {Shape(Point{P::Zero()}), {Mat3<double>::Identity(), at}};
+      return {Shape(Point{P::Zero()}), shifted_by(at)};
     case 1:
-      return {Shape(Sphere{0.25 * away}), {Mat3<double>::Identity(), at}};
+      return {Shape(Sphere{0.25 * away}), shifted_by(at)};
     case 2: {
       const double angle = random.in(0, 7);
       const P across =
           random.in(0, 1) < 0.2 ? P(turn.col(2)) : P(up * P(std::cos(angle), std::sin(angle), 0));
-      return {Shape(Segment{{P::Zero(), random.in(0.1, 1) * across}}),
-              {Mat3<double>::Identity(), at}};
+      return {Shape(Segment{{P::Zero(), random.in(0.1, 1) * across}}), shifted_by(at)};
     }
     case 3:
       return {Shape(Box{{r, 0.3, 0.2}}), {up, at + up * P(side * r, 0.3, 0.2)}};
@@ -111,9 +111,9 @@ TEST(BesideFeatures, planes_points_and_bounds_hold) {
     const Body a(of.shape, {turn, P::Zero()});
     const Body b = beside(k / kinds_of_features % kinds_beside, turn * of.point + away * normal,
                           normal, away, turn, random);
-    const SignedDistance found = signed_distance(a.ready, a.pose, b.ready, b.pose);
+    const SignedDistance found = signed_distance(a, b);
     ASSERT_EQ(testing::complaint(a, b, found, judge), "") << k;
-    const SignedDistance reversed = signed_distance(b.ready, b.pose, a.ready, a.pose);
+    const SignedDistance reversed = signed_distance(b, a);
     ASSERT_EQ(testing::complaint(b, a, reversed, judge), "") << k;
   }
 }
@@ -145,7 +145,7 @@ TEST(BesideFeatures, bodies_that_turn_their_axes_to_each_other_have_points_that_
     const Body a(of_a, {turn, P::Zero()});
     const P touched = turn * of_a.support(to_b) - turn_b * of_b.support(to_a);
     const Body b(of_b, {turn_b, touched + away * normal});
-    const SignedDistance found = signed_distance(a.ready, a.pose, b.ready, b.pose);
+    const SignedDistance found = signed_distance(a, b);
     ASSERT_EQ(testing::complaint(a, b, found, judge), "") << k;
   }
 }

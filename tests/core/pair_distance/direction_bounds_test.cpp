@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/pair/contact_shape.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -19,7 +20,7 @@ struct KnownPair {
 
   CoreDistance bounded(const DirectionSearch& search) const {
     const ContactShape ready_a{a}, ready_b{b};
-    const Affine<double> pose_a, pose_b{Mat3<double>::Identity(), place};
+    const Affine<double> pose_a, pose_b{shifted_by(place)};
     return bound_by_directions(pair_of(ready_a, pose_a, pose_a.linear, ready_b, pose_b), {},
                                search);
   }

@@ -78,10 +78,10 @@ constexpr int hidden_pairs = 300;       ///< of shapes known by their support ma
 constexpr int coaxial_pairs = 500;      ///< of solids of revolution about parallel axes
 
 void ask_distances(const Body& a, const Body& b, int k, AllBits& bits) {
-  const SignedDistance found = signed_distance(a.ready, a.pose, b.ready, b.pose);
+  const SignedDistance found = signed_distance(a, b);
   bits["distances"].add(found);
   bits["contacts"].add(contact_manifold(a.ready, a.pose, b.ready, b.pose, found));
-  const double size = a.ready.ball_radius() + b.ready.ball_radius();
+  const double size = size_of(a, b);
   SignedDistanceOptions options;
   switch (k % 4) {
     case 0:
@@ -97,7 +97,7 @@ void ask_distances(const Body& a, const Body& b, int k, AllBits& bits) {
       options.tolerance = 1e-4;
       break;
   }
-  bits["rough distances"].add(signed_distance(a.ready, a.pose, b.ready, b.pose, options));
+  bits["rough distances"].add(signed_distance(a, b, options));
   PairMemory memory;
   Affine<double> pose = b.pose;
   for (int frame = 0; frame < 3; ++frame) {
@@ -110,7 +110,7 @@ void ask_distances(const Body& a, const Body& b, int k, AllBits& bits) {
 }
 
 void ask_impacts(const Body& a, const Body& b, AllBits& bits, RandomShapes& random) {
-  const double size = a.ready.ball_radius() + b.ready.ball_radius();
+  const double size = size_of(a, b);
   const Vec3<double> between = b.pose.translation - a.pose.translation;
   RigidMotion of_a{a.pose}, of_b{b.pose};
   of_a.velocity = 0.3 * size * random.direction();
@@ -133,7 +133,7 @@ void ask_impacts(const Body& a, const Body& b, AllBits& bits, RandomShapes& rand
 
 void ask_casts(const Body& a, const Body& b, AllBits& bits, RandomShapes& random) {
   const Vec3<double> between = b.pose.translation - a.pose.translation;
-  const double size = a.ready.ball_radius() + b.ready.ball_radius();
+  const double size = size_of(a, b);
   const Vec3<double> velocity = -between + 0.4 * size * random.direction();
   const PreparedPair pair = pair_of(a.shape, a.pose, b.shape, b.pose);
   bits["shape casts"].add(cast_shape(pair, Vec3<double>(velocity)));
@@ -180,7 +180,7 @@ TEST(GoldenAlignedPairs, are_as_recorded) {
     // Some use as many support points as they may.
     SignedDistanceOptions options;
     options.max_supports = 2000;
-    const SignedDistance found = signed_distance(a.ready, a.pose, b.ready, b.pose, options);
+    const SignedDistance found = signed_distance(a, b, options);
     bits["distances"].add(found);
     bits["contacts"].add(contact_manifold(a.ready, a.pose, b.ready, b.pose, found));
     RigidMotion of_a{a.pose}, of_b{b.pose};

@@ -6,6 +6,7 @@
 #include "core/pair_motion/impact.h"
 #include "tests/core/pair_distance/random_bodies.h"
 #include "tests/oracle/wolfe.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -42,10 +43,8 @@ TEST(SignedDistance, spheres_capsules_and_boxes_have_closed_forms) {
     ASSERT_LE(capsules.lower, exact);
     ASSERT_GE(capsules.upper, exact);
 
-    const SignedDistance balls =
-        signed_distance(ContactShape(Transform{Nested(Shape(Sphere{r1})),
-                                               Affine<double>{Mat3<double>::Identity(), p}}),
-                        round(r2, Point{q}));
+    const SignedDistance balls = signed_distance(
+        ContactShape(Transform{Nested(Shape(Sphere{r1})), shifted_by(p)}), round(r2, Point{q}));
     ASSERT_NEAR(balls.value, double((q.cast<Long>() - p.cast<Long>()).norm() - Long(r1) - Long(r2)),
                 1e-14 * 4 * size);
 
@@ -67,7 +66,7 @@ TEST(SignedDistance, hulls_are_as_deep_in_each_other_as_the_nearest_facet_of_the
                  {random.turn(), Vec3<double>::Zero()});
     const Body b(are_boxes ? random_shape(5, 1, random) : random.hull(4 + k % 13, 1),
                  {random.turn(), random.in(0, 1) * random.direction()});
-    const SignedDistance result = signed_distance(a.ready, a.pose, b.ready, b.pose);
+    const SignedDistance result = signed_distance(a, b);
     if (result.status != SignedStatus::overlapping) continue;
     ++overlapping;
     const auto corners = [](const Body& body) {
@@ -93,8 +92,7 @@ TEST(SignedDistance, hulls_are_as_deep_in_each_other_as_the_nearest_facet_of_the
       depth = std::min(depth, facet.normal().dot(difference.support(facet.normal())));
     }
     ASSERT_NEAR(result.value, -depth, 1e-13) << k;
-    ASSERT_LE(result.upper - result.lower, 1e-9 * (a.ready.ball_radius() + b.ready.ball_radius()))
-        << k;
+    ASSERT_LE(result.upper - result.lower, 1e-9 * (testing::size_of(a, b))) << k;
   }
   EXPECT_GT(overlapping, 500);
 }
@@ -147,8 +145,8 @@ TEST(SignedDistance, of_bodies_that_are_points_is_that_of_points) {
   for (const Shape& a : points)
     for (const Shape& b : points)
       for (const double away : {0.0, 0x1p-159, 1.0}) {
-        const SignedDistance found = signed_distance(ContactShape(a), {}, ContactShape(b),
-                                                     {Mat3<double>::Identity(), {0, away, 0}});
+        const SignedDistance found =
+            signed_distance(ContactShape(a), {}, ContactShape(b), shifted_by(0, away, 0));
         ASSERT_EQ(found.status, away > 0 ? SignedStatus::separated : SignedStatus::touching)
             << &a - points.data() << ", " << &b - points.data() << ", " << away;
         EXPECT_LE(found.lower, away);
@@ -172,8 +170,7 @@ TEST(SignedDistance, is_known_up_to_the_largest_length_and_undecided_beyond) {
   for (std::size_t i = 0; i < of_size(1).size(); ++i)
     for (const double unit : {largest * 0.9, largest * 0x1p-3, largest * 0x1p2}) {
       const ContactShape a(of_size(unit)[i]), b(of_size(unit)[i]);
-      const SignedDistance found =
-          signed_distance(a, {}, b, {Mat3<double>::Identity(), {unit, 0, 0}});
+      const SignedDistance found = signed_distance(a, {}, b, shifted_by(unit, 0, 0));
       if (unit > largest) {
         EXPECT_EQ(found.status, SignedStatus::undecided) << i;
         EXPECT_EQ(found.supports, 0) << i;
@@ -187,7 +184,7 @@ TEST(SignedDistance, is_known_up_to_the_largest_length_and_undecided_beyond) {
 /// The radius counts as well, where the core itself is small.
 TEST(SignedDistance, of_a_short_capsule_of_more_than_the_largest_length_is_undecided) {
   const ContactShape capsule(Capsule{0x1p161, 1}), ball(Sphere{0x1p161});
-  const Affine<double> beside{Mat3<double>::Identity(), {0x1p163, 0, 0}};
+  const Affine<double> beside{shifted_by(0x1p163, 0, 0)};
   EXPECT_EQ(signed_distance(capsule, {}, capsule, beside).status, SignedStatus::undecided);
   EXPECT_EQ(signed_distance(ball, {}, ball, beside).status, SignedStatus::separated);
   const RigidMotion rests, comes{beside, {-0x1p161, 0, 0}, {0, 0, 0}};

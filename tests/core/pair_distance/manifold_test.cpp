@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/pair_distance/pair_judge.h"
+#include "tests/support/shifted.h"
 
 namespace minkray::testing {
 namespace {
@@ -12,12 +13,11 @@ namespace {
 const Shape plate(Box{{5, 5, 0.5}});
 
 ContactManifold manifold_of(const Body& a, const Body& b) {
-  return contact_manifold(a.ready, a.pose, b.ready, b.pose,
-                          signed_distance(a.ready, a.pose, b.ready, b.pose));
+  return contact_manifold(a.ready, a.pose, b.ready, b.pose, signed_distance(a, b));
 }
 
 Affine<double> at(double x, double y, double z) {
-  return {Mat3<double>::Identity(), Vec3<double>(x, y, z)};
+  return shifted_by(x, y, z);
 }
 
 Affine<double> turned(const Vec3<double>& axis, double angle, const Vec3<double>& to) {
@@ -27,7 +27,7 @@ Affine<double> turned(const Vec3<double>& axis, double angle, const Vec3<double>
 /// Each point is of both shapes, to rounding, and the gap is the reported one.
 void expect_of_shapes(const Body& a, const Body& b, const ContactManifold& found,
                       RandomShapes& random) {
-  const double size = a.ready.ball_radius() + b.ready.ball_radius() + 1e-6;
+  const double size = size_of(a, b) + 1e-6;
   for (int i = 0; i < found.count; ++i) {
     const ContactPoint& point = found.points[static_cast<std::size_t>(i)];
     EXPECT_LE((point.point_b - point.point_a - point.distance * found.normal).norm(), 1e-6 * size);
@@ -99,7 +99,7 @@ TEST(ContactManifold, of_any_two_shapes_is_of_both) {
     RandomPair pair =
         random_pair(k % kinds_of_bodies, k / kinds_of_bodies % kinds_of_bodies, 0, random);
     if (k % 2 == 0) pair.b.pose.linear = pair.a.pose.linear;
-    bring_near(pair.a, pair.b, 1e-6, pair.a.ready.ball_radius() + pair.b.ready.ball_radius());
+    bring_near(pair.a, pair.b, 1e-6, size_of(pair.a, pair.b));
     const ContactManifold found = manifold_of(pair.a, pair.b);
     ASSERT_GE(found.count, 1);
     many += found.count > 1;

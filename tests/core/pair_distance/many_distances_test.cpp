@@ -39,7 +39,7 @@ TEST(ManyDistances, of_many_pairs_are_those_of_each) {
     with_threads(threads, [&] { signed_distances(pairs, answers); });
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const Body &a = made[i].a, &b = made[i].b;
-      expect_same_bits(answers[i], signed_distance(a.ready, a.pose, b.ready, b.pose), i);
+      expect_same_bits(answers[i], signed_distance(a, b), i);
     }
     // Twice, so that there is something in the memories.
     for (int again = 0; again < 2; ++again)
@@ -47,8 +47,8 @@ TEST(ManyDistances, of_many_pairs_are_those_of_each) {
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const Body &a = made[i].a, &b = made[i].b;
       PairMemory memory;
-      signed_distance(a.ready, a.pose, b.ready, b.pose, memory);
-      expect_same_bits(answers[i], signed_distance(a.ready, a.pose, b.ready, b.pose, memory), i);
+      signed_distance(a, b, memory);
+      expect_same_bits(answers[i], signed_distance(a, b, memory), i);
     }
   }
 }

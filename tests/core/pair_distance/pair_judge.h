@@ -58,7 +58,7 @@ inline double outside(const Body& body, const Vec3<double>& point, const Vec3<do
 /// Description of an error in the result; empty if there is none.
 inline std::string complaint(const Body& a, const Body& b, const SignedDistance& result,
                              RandomShapes& random) {
-  const double size = a.ready.ball_radius() + b.ready.ball_radius();
+  const double size = size_of(a, b);
   const double reaches = size + a.ready.middle().norm() + b.ready.middle().norm() +
                          (b.pose.translation - a.pose.translation).norm();
   const double rounding = 16 * tolerance::epsilon<double> * reaches;
@@ -99,7 +99,7 @@ inline std::string complaint(const Body& a, const Body& b, const SignedDistance&
 
 /// B moves to where the two touch, or nearly: `left` apart in sizes, if negative they overlap.
 inline void bring_near(const Body& a, Body& b, double left, double size) {
-  const SignedDistance first = signed_distance(a.ready, a.pose, b.ready, b.pose);
+  const SignedDistance first = signed_distance(a, b);
   b.pose.translation -= (first.value - left * size) * first.normal;
 }
 
@@ -116,7 +116,7 @@ inline RandomPair random_pair(int i, int j, int k, RandomShapes& random) {
   RandomPair pair{Body(random_shape(i, scale, random), {random.turn(), origin}),
                   Body(random_shape(j, other, random), {random.turn(), origin})};
   Body& b = pair.b;
-  const double size = pair.a.ready.ball_radius() + b.ready.ball_radius() + scale;
+  const double size = size_of(pair.a, b) + scale;
   b.pose.translation += random.in(0, 1.3) * size * random.direction();
   if (k % 3 == 2) {
     const double left = k % 2 == 0 ? 0 : std::pow(10, random.in(-14, -3));
@@ -130,7 +130,7 @@ inline RandomPair slender_pair(int k, double thin, RandomShapes& random) {
   RandomPair pair{
       Body(slender_shape(thin, random), {random.turn(), Vec3<double>::Zero()}),
       Body(slender_shape(thin, random), {random.turn(), random.in(0, 2.5) * random.direction()})};
-  const double size = pair.a.ready.ball_radius() + pair.b.ready.ball_radius();
+  const double size = size_of(pair.a, pair.b);
   const double left = k % 3 == 1 ? 0 : std::pow(10, random.in(-14, -3));
   if (k % 3 > 0) bring_near(pair.a, pair.b, k % 2 == 0 ? left : -left, size);
   return pair;

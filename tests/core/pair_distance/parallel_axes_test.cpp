@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/pair_distance/pair_judge.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -41,7 +42,7 @@ TEST(ParallelAxes, bodies_of_revolution_take_no_more_support_points_than_others)
     const Body a(of_revolution(k, random), {turn, Vec3<double>::Zero()});
     const Body b(of_revolution(k / 11, random),
                  {turn * flip, turn * Vec3<double>(beside, 0, along.x())});
-    const SignedDistance found = signed_distance(a.ready, a.pose, b.ready, b.pose);
+    const SignedDistance found = signed_distance(a, b);
     ASSERT_EQ(testing::complaint(a, b, found, random), "") << k;
     ASSERT_FALSE(found.is_exhausted) << k;
     ASSERT_LT(found.supports, 1000) << k;
@@ -57,7 +58,7 @@ TEST(ParallelAxes, a_peg_in_its_hole_leaves_by_the_shorter_way) {
   EXPECT_NEAR(aside.value, -1.25, 1e-14);
   EXPECT_LE(aside.upper - aside.lower, 1e-9);
   EXPECT_NEAR(aside.normal.z(), 0, 1e-12);
-  const Affine<double> nearly_out{Mat3<double>::Identity(), {0, 0, 4.5}};
+  const Affine<double> nearly_out{shifted_by(0, 0, 4.5)};
   const SignedDistance along = signed_distance(block, {}, peg, nearly_out);
   EXPECT_NEAR(along.value, -0.5, 1e-14);
   EXPECT_NEAR(along.normal.z(), 1, 1e-12);
@@ -72,7 +73,7 @@ TEST(ParallelAxes, that_are_not_quite_are_within_bounds_as_far_apart_as_that) {
           {rotation_matrix(tilt, 0.0, 0.0, 1.0), Vec3<double>::Zero()});
     SignedDistanceOptions options;
     options.max_supports = 2000;
-    const SignedDistance found = signed_distance(a.ready, a.pose, b.ready, b.pose, options);
+    const SignedDistance found = signed_distance(a, b, options);
     ASSERT_LE(found.lower, testing::gap(a, b, found.normal) + 1e-14) << k;
     ASSERT_GE(found.upper, testing::best_gap(a, b, found.normal, random)) << k;
     ASSERT_LE(found.upper - found.lower, 20 * tilt) << k;

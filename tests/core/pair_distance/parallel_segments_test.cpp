@@ -34,7 +34,7 @@ TEST(ParallelSegments, nearly_so_have_planes_and_points_that_hold) {
                  tilt_x = little(), tilt_y = little();
     const Body b(shape(1), {turn * rotation_matrix(tilt_x, tilt_y, 0.0, 1.0),
                             turn * Vec3<double>(x, y, along)});
-    const SignedDistance found = signed_distance(a.ready, a.pose, b.ready, b.pose);
+    const SignedDistance found = signed_distance(a, b);
     ASSERT_EQ(testing::complaint(a, b, found, judge), "") << k;
     overlapping += found.status == SignedStatus::overlapping;
     ++all;
@@ -103,7 +103,7 @@ TEST(ParallelSegments, that_nearly_touch_at_an_end_have_planes_and_points_that_h
     const Body a(segment(half_a), {turn, Vec3<double>::Zero()}),
         b(segment(half_b),
           {turn * lean, turn * (aside + Vec3<double>(0, 0, s) - lean * Vec3<double>(0, 0, t))});
-    const SignedDistance found = signed_distance(a.ready, a.pose, b.ready, b.pose);
+    const SignedDistance found = signed_distance(a, b);
     ASSERT_EQ(testing::complaint(a, b, found, judge), "") << k;
   }
 }

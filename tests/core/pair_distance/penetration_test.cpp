@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/pair_distance/pair_judge.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -142,8 +143,7 @@ TEST(Penetration, of_cubes_is_seen_at_points_of_both_where_a_corner_stands_out) 
   const double size = 2 * cube.ball_radius();
   for (const double out : {1e-12, -1e-12, 1.5e-11, -1.5e-11}) {
     const Vec3<double> middle(out, 0, 1.875);
-    const SignedDistance found =
-        signed_distance(cube, {}, cube, {Mat3<double>::Identity(), middle});
+    const SignedDistance found = signed_distance(cube, {}, cube, shifted_by(middle));
     EXPECT_NEAR(found.value, -0.125, 1e-14);
     const double of_a = found.point_a.cwiseAbs().maxCoeff() - 1,
                  of_b = (found.point_b - middle).cwiseAbs().maxCoeff() - 1;
@@ -167,9 +167,9 @@ TEST(Penetration, of_curved_pairs_next_to_touching_seldom_takes_branch_and_bound
     for (int k = 0; k < 400; ++k, ++all) {
       const Body a(testing::random_shape(i, 1, random), {random.turn(), Vec3<double>::Zero()});
       Body b(testing::random_shape(j, 1, random), {random.turn(), 3 * random.direction()});
-      const double size = a.ready.ball_radius() + b.ready.ball_radius();
+      const double size = testing::size_of(a, b);
       testing::bring_near(a, b, -std::pow(10, random.in(-12, -6)), size);
-      const SignedDistance found = signed_distance(a.ready, a.pose, b.ready, b.pose);
+      const SignedDistance found = signed_distance(a, b);
       ASSERT_EQ(testing::complaint(a, b, found, random), "") << i << ", " << j << ", " << k;
       slow += found.supports > 150;
     }

@@ -8,12 +8,11 @@
 #include <string>
 
 #include "tests/core/pair_distance/random_bodies.h"
+#include "tests/oracle/quad.h"
 #include "tests/support/sample_shapes.h"
+#include "tests/support/shifted.h"
 
 namespace minkray::testing {
-
-__extension__ using Quad = __float128;
-using QuadVec = std::array<Quad, 3>;
 
 inline constexpr std::array places = {10.0, 100.0, 1e4, 1e6, 1e9};
 
@@ -32,21 +31,9 @@ inline Shape under(const Shape& shape, const Affine<double>& map) {
   return Transform{shape, map};
 }
 inline Shape moved(const Shape& shape, const Vec3<double>& way) {
-  return under(shape, {Mat3<double>::Identity(), way});
+  return under(shape, shifted_by(way));
 }
 
-inline Quad root(Quad x) {
-  if (!(x > 0)) return 0;
-  Quad r = std::sqrt(static_cast<long double>(x));
-  for (int i = 0; i < 2; ++i) r = (r + x / r) / 2;
-  return r;
-}
-inline Quad quad_dot(const QuadVec& a, const QuadVec& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-inline QuadVec along(const QuadVec& a, const QuadVec& b, Quad t) {
-  return {a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]};
-}
 inline Quad limited(Quad t) {
   return t < 0 ? Quad(0) : t > 1 ? Quad(1) : t;
 }
@@ -56,29 +43,19 @@ struct QuadCapsule {
   Quad radius;
 };
 
-/// The capsule's end in exact arithmetic of the pose's numbers.
-inline QuadVec image(const Affine<double>& pose, const Vec3<double>& p) {
-  QuadVec q;
-  for (int i = 0; i < 3; ++i) {
-    Quad sum = pose.translation[i];
-    for (int j = 0; j < 3; ++j) sum += Quad(pose.linear(i, j)) * Quad(p[j]);
-    q[static_cast<std::size_t>(i)] = sum;
-  }
-  return q;
-}
+/// The capsule's ends in exact arithmetic of the pose's numbers.
 inline QuadCapsule capsule(const Affine<double>& pose, double radius, double half) {
-  const QuadVec from = image(pose, {0, 0, -half}), to = image(pose, {0, 0, half});
-  return {from, along(to, from, -1), radius};
+  const QuadVec at = quad(pose.translation), end = pose.linear.cast<Quad>() * QuadVec(0, 0, half);
+  return {at - end, 2 * end, radius};
 }
 
 inline Quad signed_distance_of(const QuadCapsule& a, const QuadCapsule& b) {
-  const QuadVec x = along(b.from, a.from, -1);
-  const Quad aa = quad_dot(a.way, a.way), bb = quad_dot(b.way, b.way), ab = quad_dot(a.way, b.way),
-             ax = quad_dot(a.way, x), bx = quad_dot(b.way, x), area = aa * bb - ab * ab;
+  const QuadVec x = b.from - a.from;
+  const Quad aa = a.way.squaredNorm(), bb = b.way.squaredNorm(), ab = a.way.dot(b.way),
+             ax = a.way.dot(x), bx = b.way.dot(x), area = aa * bb - ab * ab;
   Quad least = -1;
   const auto add = [&](Quad s, Quad t) {
-    const QuadVec c = along(along(x, b.way, t), a.way, -s);
-    const Quad squared = quad_dot(c, c);
+    const Quad squared = (x + t * b.way - s * a.way).squaredNorm();
     if (least < 0 || squared < least) least = squared;
   };
   for (const Quad end : {Quad(0), Quad(1)}) {

@@ -6,6 +6,7 @@
 
 #include "tests/core/pair_distance/places.h"
 #include "tests/support/number_of_cases.h"
+#include "tests/support/shifted.h"
 
 namespace minkray::testing {
 namespace {
@@ -86,7 +87,7 @@ TEST(Places, distances_of_all_kinds_are_the_same_in_poses_that_are_moved) {
 /// The poses are in the shapes; or so far off that the bodies' poses bring them back.
 PosedShapes moved_in_shapes(const PosedShapes& near, const Vec3<double>& way, int k) {
   PosedShapes far = near;
-  const Affine<double> back{Mat3<double>::Identity(), -way};
+  const Affine<double> back{shifted_by(-way)};
   switch (k % 4) {
     case 0:
       far.a = moved(under(near.a, near.pose_a), way);

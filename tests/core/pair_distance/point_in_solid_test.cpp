@@ -5,6 +5,7 @@
 
 #include "core/pair_distance/signed_distance.h"
 #include "tests/core/pair_distance/random_numbers.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -26,7 +27,7 @@ TEST(PointInSolid, has_one_direction_only_if_a_step_along_it_is_as_deep_as_long)
     const Mat3<double> turn = random.turn();
     const Affine<double> pose_a{turn, Vec3<double>::Zero()};
     const auto depth_at = [&](const Vec3<double>& place) {
-      return signed_distance(solid, pose_a, ball, {Mat3<double>::Identity(), place});
+      return signed_distance(solid, pose_a, ball, shifted_by(place));
     };
     const SignedDistance found = depth_at(turn * at);
     if (found.value + rounding + ball.core().radius > 0) continue;  // the middle is outside

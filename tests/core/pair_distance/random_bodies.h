@@ -2,6 +2,7 @@
 // Random shapes of all kinds, each ready for signed distances and posed somewhere.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "core/pair_distance/signed_distance.h"
@@ -108,5 +109,15 @@ struct Body {
            n.cast<long double>().norm();
   }
 };
+
+inline double size_of(const Body& a, const Body& b) {
+  return a.ready.ball_radius() + b.ready.ball_radius();
+}
+
+/// With the options and the memory that the library's own takes.
+template <class... More>
+SignedDistance signed_distance(const Body& a, const Body& b, More&&... more) {
+  return minkray::signed_distance(a.ready, a.pose, b.ready, b.pose, std::forward<More>(more)...);
+}
 
 }  // namespace minkray::testing

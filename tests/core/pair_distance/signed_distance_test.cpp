@@ -7,6 +7,7 @@
 
 #include "core/pair_distance/half_space_distance.h"
 #include "tests/core/pair_distance/pair_judge.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -23,8 +24,7 @@ TEST(SignedDistance, random_pairs_of_all_kinds_are_proven_by_planes_and_points) 
     for (int j = 0; j < kinds_of_bodies; ++j)
       for (int k = 0; k < 24; ++k) {
         const testing::RandomPair pair = testing::random_pair(i, j, k, random);
-        const SignedDistance result =
-            signed_distance(pair.a.ready, pair.a.pose, pair.b.ready, pair.b.pose);
+        const SignedDistance result = signed_distance(pair.a, pair.b);
         const std::string wrong = testing::complaint(pair.a, pair.b, result, random);
         ASSERT_EQ(wrong, "") << "kinds " << i << " and " << j << ", " << k;
         separated += result.status == SignedStatus::separated;
@@ -44,11 +44,10 @@ TEST(SignedDistance, the_order_of_the_two_turns_the_normal_and_nothing_else) {
                  {random.turn(), Vec3<double>::Zero()});
     const Body b(random_shape(k / kinds_of_bodies % kinds_of_bodies, 1, random),
                  {random.turn(), random.in(0, 3) * random.direction()});
-    const SignedDistance one = signed_distance(a.ready, a.pose, b.ready, b.pose),
-                         two = signed_distance(b.ready, b.pose, a.ready, a.pose);
+    const SignedDistance one = signed_distance(a, b), two = signed_distance(b, a);
     ASSERT_LE(one.lower, two.upper) << k;
     ASSERT_LE(two.lower, one.upper) << k;
-    const double size = a.ready.ball_radius() + b.ready.ball_radius();
+    const double size = testing::size_of(a, b);
     ASSERT_NEAR(one.value, two.value, 1e-9 * size + 1e-14) << k;
   }
 }
@@ -61,10 +60,10 @@ TEST(SignedDistance, early_answers_agree_with_whole_ones) {
                  {random.turn(), Vec3<double>::Zero()});
     const Body b(random_shape(k / kinds_of_bodies % kinds_of_bodies, 1, random),
                  {random.turn(), random.in(0, 3) * random.direction()});
-    const SignedDistance whole = signed_distance(a.ready, a.pose, b.ready, b.pose);
+    const SignedDistance whole = signed_distance(a, b);
     SignedDistanceOptions near;
     near.at_most = 0.3;
-    const SignedDistance bounded = signed_distance(a.ready, a.pose, b.ready, b.pose, near);
+    const SignedDistance bounded = signed_distance(a, b, near);
     if (whole.lower > 0.3 + 1e-9) {
       ++apart;
       ASSERT_GT(bounded.lower, 0.3) << k;
@@ -76,7 +75,7 @@ TEST(SignedDistance, early_answers_agree_with_whole_ones) {
     ASSERT_GE(bounded.upper, whole.lower) << k;
     SignedDistanceOptions sign;
     sign.only_sign = true;
-    const SignedDistance signs = signed_distance(a.ready, a.pose, b.ready, b.pose, sign);
+    const SignedDistance signs = signed_distance(a, b, sign);
     if (std::abs(whole.value) > 1e-9) {
       ASSERT_EQ(signs.status, whole.status) << k;
     }
@@ -98,13 +97,12 @@ TEST(SignedDistance, the_sign_alone_is_that_of_the_whole_answer_where_bodies_ove
     const Mat3<double> turn = random.turn();  // of both: their axes are parallel
     const Body a(random_shape(cone, 1, random), {turn, Vec3<double>::Zero()});
     Body b(random_shape(other, 1, random), {turn, 3 * random.direction()});
-    const double size = a.ready.ball_radius() + b.ready.ball_radius();
+    const double size = testing::size_of(a, b);
     testing::bring_near(a, b, -std::pow(10, random.in(-8.5, -4)), size);
-    const SignedDistance whole = signed_distance(a.ready, a.pose, b.ready, b.pose);
+    const SignedDistance whole = signed_distance(a, b);
     if (whole.status != SignedStatus::overlapping) continue;
     ++overlapping;
-    EXPECT_EQ(signed_distance(a.ready, a.pose, b.ready, b.pose, sign).status,
-              SignedStatus::overlapping)
+    EXPECT_EQ(signed_distance(a, b, sign).status, SignedStatus::overlapping)
         << k << ": " << whole.value / size;
   }
   EXPECT_GT(overlapping, all * 9 / 10);
@@ -118,15 +116,13 @@ TEST(SignedDistance, bounds_are_as_near_to_each_other_as_is_asked) {
   for (const double asked : {1e-13, 1e-14})
     for (const int kind : {15, 16})
       for (int k = 0; k < 40; ++k, ++all) {
-        const Body ball(Sphere{random.in(0.2, 1)},
-                        {Mat3<double>::Identity(), Vec3<double>::Zero()}),
+        const Body ball(Sphere{random.in(0.2, 1)}, {}),
             other(random_shape(kind, 1, random), {random.turn(), 5 * random.direction()});
         SignedDistanceOptions options;
         options.tolerance = asked;
-        const SignedDistance found =
-            signed_distance(ball.ready, ball.pose, other.ready, other.pose, options);
+        const SignedDistance found = signed_distance(ball, other, options);
         ASSERT_EQ(found.status, SignedStatus::separated);
-        const double size = ball.ready.ball_radius() + other.ready.ball_radius(),
+        const double size = testing::size_of(ball, other),
                      middles = middle_in_world(other.ready, other.pose).norm();
         const double rounding =
             16 * tolerance::epsilon<double> * (size + middles) + other.ready.core().rounding;
@@ -143,16 +139,15 @@ TEST(SignedDistance, small_shapes_far_from_their_origin_have_bounds_in_order) {
       ShapeList balls;
       const Vec3<double> far = random.in(1, 10) * random.direction();
       for (int i = 0; i < 2; ++i)
-        balls.push_back(Shape(
-            Transform{Nested(Shape(Sphere{random.in(1e-4, 2e-4)})),
-                      Affine<double>{Mat3<double>::Identity(), far + 1e-4 * random.direction()}}));
+        balls.push_back(Shape(Transform{Nested(Shape(Sphere{random.in(1e-4, 2e-4)})),
+                                        shifted_by(far + 1e-4 * random.direction())}));
       return Shape(HullOf{balls});
     };
     const Body a(small(), {random.turn(), Vec3<double>::Zero()});
     Body b(small(), {random.turn(), random.direction()});
-    const double size = a.ready.ball_radius() + b.ready.ball_radius();
+    const double size = testing::size_of(a, b);
     testing::bring_near(a, b, k % 2 == 0 ? 1e-3 : random.in(0, 1), size);
-    const SignedDistance found = signed_distance(a.ready, a.pose, b.ready, b.pose);
+    const SignedDistance found = signed_distance(a, b);
     ASSERT_LE(found.lower, found.value) << k;
     ASSERT_LE(found.value, found.upper) << k;
   }
@@ -163,12 +158,9 @@ TEST(SignedDistance, of_what_touches_far_from_its_own_origin_is_known_to_its_dig
   constexpr double far = 0x1p22;
   ShapeList balls;
   for (const double x : {far, far + 1})
-    balls.push_back(
-        Shape(Transform{Nested(Shape(Sphere{0.5})),
-                        Affine<double>{Mat3<double>::Identity(), Vec3<double>(x, 0, 0.5)}}));
+    balls.push_back(Shape(Transform{Nested(Shape(Sphere{0.5})), shifted_by(x, 0, 0.5)}));
   const ContactShape rod(Shape(HullOf{balls})), table(Box{{2, 2, 0.5}});
-  const Affine<double> here{Mat3<double>::Identity(), {-far, 0, 0}},
-      below{Mat3<double>::Identity(), {0, 0, -0.5}};
+  const Affine<double> here{shifted_by(-far, 0, 0)}, below{shifted_by(0, 0, -0.5)};
   const SignedDistance found = signed_distance(table, below, rod, here);
   EXPECT_EQ(found.status, SignedStatus::touching);
   EXPECT_LE(found.lower, 0);
@@ -178,8 +170,7 @@ TEST(SignedDistance, of_what_touches_far_from_its_own_origin_is_known_to_its_dig
 
 TEST(SignedDistance, is_undecided_where_squares_of_lengths_overflow) {
   const auto at = [](double radius, const Vec3<double>& centre) {
-    return ContactShape(
-        Transform{Nested(Shape(Sphere{radius})), Affine<double>{Mat3<double>::Identity(), centre}});
+    return ContactShape(Transform{Nested(Shape(Sphere{radius})), shifted_by(centre)});
   };
   const Vec3<double> far(1e308, 1e308, 1e308);
   const ContactShape box(Box{{1e200, 1e200, 1e200}}), small(at(1, far)), opposite(at(1, -far)),
@@ -202,8 +193,7 @@ TEST(SignedDistance, of_what_is_far_away_is_proven_by_its_plane) {
       for (int k = 0; k < 20; ++k) {
         const Body ball(Sphere{0.5}, origin),
             other(random_shape(kind, 1, random), {random.turn(), far * random.direction()});
-        const SignedDistance found =
-            signed_distance(ball.ready, ball.pose, other.ready, other.pose);
+        const SignedDistance found = signed_distance(ball, other);
         ASSERT_EQ(found.status, SignedStatus::separated) << kind << " at " << far;
         ASSERT_GE(double(testing::gap(ball, other, found.normal)), found.lower)
             << kind << " at " << far;
@@ -214,9 +204,7 @@ TEST(SignedDistance, of_what_is_far_away_is_proven_by_its_plane) {
 /// If nothing is known the value is 0, and only is_unknown() distinguishes it from a contact.
 TEST(SignedDistance, is_unknown_only_where_it_gave_up_without_bounds) {
   const ContactShape ball(Shape(Sphere{1})), box(Shape(Box{{1, 1, 1}}));
-  const auto at = [](double x) {
-    return Affine<double>{Mat3<double>::Identity(), Vec3<double>(x, 0, 0)};
-  };
+  const auto at = [](double x) { return shifted_by(x, 0, 0); };
   SignedDistanceOptions near, sign;
   near.at_most = 1;
   sign.only_sign = true;
@@ -275,8 +263,7 @@ TEST(SignedDistance, of_a_half_space_is_known_as_far_as_numbers_go) {
   const ContactShape ball(Shape(Sphere{1}));
   const Vec3<double> up(0, 0, 1);
   const auto above = [&](double z, double offset) {
-    return distance_to_half_space(up, offset, ball,
-                                  {Mat3<double>::Identity(), Vec3<double>(0, 0, z)});
+    return distance_to_half_space(up, offset, ball, shifted_by(0, 0, z));
   };
   for (const double z : {3.0, 1e100, 1e155, 1e300}) {
     EXPECT_EQ(above(z, 0).status, SignedStatus::separated) << z;
@@ -287,9 +274,7 @@ TEST(SignedDistance, of_a_half_space_is_known_as_far_as_numbers_go) {
   EXPECT_TRUE(distance_to_half_space(up, 0, infinite, {}).is_unknown());
   // The ball touches the plane, but the bound of its rounding is out of range.
   const ContactShape huge(Shape(Sphere{1e308}));
-  EXPECT_TRUE(
-      distance_to_half_space(up, 0, huge, {Mat3<double>::Identity(), Vec3<double>(0, 0, 1e308)})
-          .is_unknown());
+  EXPECT_TRUE(distance_to_half_space(up, 0, huge, shifted_by(0, 0, 1e308)).is_unknown());
   // Bounds that are open to both sides of 0 are known all the same.
   SignedDistance undecided;
   undecided.upper = 1;

@@ -17,8 +17,7 @@ TEST_P(SlenderPairs, have_bounds_as_near_to_each_other_as_all_others) {
   std::array<int, 4> statuses = {};
   for (int k = 0; k < 3000; ++k) {
     const RandomPair pair = slender_pair(k, GetParam(), random);
-    const SignedDistance found =
-        signed_distance(pair.a.ready, pair.a.pose, pair.b.ready, pair.b.pose);
+    const SignedDistance found = signed_distance(pair.a, pair.b);
     ++statuses[static_cast<std::size_t>(found.status)];
     EXPECT_EQ(complaint(pair.a, pair.b, found, random), "") << "pair " << k;
   }

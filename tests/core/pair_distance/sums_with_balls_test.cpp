@@ -46,7 +46,7 @@ TEST(SumsWithBalls, are_as_well_known_as_what_they_are_added_to) {
     const Body a(moved, {random.turn(), Vec3<double>::Zero()}),
         b(testing::random_shape(k / 15 % testing::kinds_of_bodies, 1, random),
           {random.turn(), random.in(0, 5) * random.direction()});
-    const SignedDistance found = signed_distance(a.ready, a.pose, b.ready, b.pose);
+    const SignedDistance found = signed_distance(a, b);
     ASSERT_EQ(testing::complaint(a, b, found, random), "") << k;
   }
 }

@@ -65,8 +65,8 @@ TEST(SupportBudget, bounds_hold_for_any_pair_and_any_budget) {
           {random.turn(), (k % 2 == 0 ? 0 : random.in(0, 0.2)) * random.direction()});
     SignedDistanceOptions options;
     options.max_supports = 1 + static_cast<int>(std::pow(10, random.in(0, 2)));
-    const SignedDistance found = signed_distance(a.ready, a.pose, b.ready, b.pose, options);
-    const double size = a.ready.ball_radius() + b.ready.ball_radius();
+    const SignedDistance found = signed_distance(a, b, options);
+    const double size = testing::size_of(a, b);
     ASSERT_LE(found.supports, options.max_supports + beside_each) << k;
     ASSERT_LE(found.lower, testing::gap(a, b, found.normal) + 1e-14) << k;
     ASSERT_GE(found.upper, testing::best_gap(a, b, found.normal, random) - 1e-14) << k;

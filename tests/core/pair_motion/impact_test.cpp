@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/pair_motion/moving_pairs.h"
+#include "tests/support/shifted.h"
 
 namespace minkray::testing {
 namespace {
@@ -34,7 +35,7 @@ const ContactShape cube{Shape(Box{{1, 1, 1}})};
 
 RigidMotion at(double x, double y, double z, const Vec3<double>& velocity,
                const Vec3<double>& angular = Vec3<double>::Zero()) {
-  return {{Mat3<double>::Identity(), Vec3<double>(x, y, z)}, velocity, angular};
+  return {shifted_by(x, y, z), velocity, angular};
 }
 
 TEST(Impact, of_a_rod_that_leaves_with_one_end_is_that_of_the_other) {
@@ -100,7 +101,7 @@ TEST(Impact, of_infinite_bodies_is_given_up_soon) {
   const double infinity = std::numeric_limits<double>::infinity();
   const ContactShape needle{Shape(Capsule{0.5, infinity})};
   const Shape superellipsoid = Superellipsoid{{1, 1, 1}, 4};
-  const Affine<double> aside = {Mat3<double>::Identity(), {4, 0, 0}};
+  const Affine<double> aside = shifted_by(4, 0, 0);
   const ContactShape body{Shape(Transform{superellipsoid, AffineMap(aside)})};
   const Impact impact =
       first_impact(needle, at(0, 0, 0, {1, 5e-324, 1}, {0, 0, 1}), body, at(0, 0, 0, {0, 0, 0}), 5);
@@ -125,7 +126,7 @@ const ContactShape ball{Shape(Sphere{1})};
 TEST(Impact, of_a_ball_that_leaves_and_comes_round_is_found_in_the_longest_time) {
   // Around (2, 1) with an arm of 1, from (2, 0): it is as far from the middle again as at the
   // start where that is mirrored on the line to (2, 1), at (1.2, 1.6).
-  const Affine<double> arm{Mat3<double>::Identity(), {0, -1, 0}};
+  const Affine<double> arm{shifted_by(0, -1, 0)};
   const ContactShape on_arm{Shape(Transform{Shape(Sphere{1}), AffineMap(arm)})};
   const double exact = std::acos(-1.0) + std::asin(0.8);
   for (const double t_max : {10.0, 1e20, 1e30, 1e31, 1e33, 1e100, 1e300}) {
@@ -145,7 +146,7 @@ TEST(Impact, of_a_ball_that_leaves_slowly_and_comes_back_is_not_leapt_over) {
   for (const double slow : {1e-1, 1e-2, 1e-6, 1e-8, 2e-8}) {
     // The arm is (1, -slow) at first, from a pivot to the left, so that the ball moves by (slow,
     // 1). The ball is furthest where the arm leads along the way from the middle to the pivot.
-    const Affine<double> arm{Mat3<double>::Identity(), {1, -slow, 0}};
+    const Affine<double> arm{shifted_by(1, -slow, 0)};
     const ContactShape on_arm{Shape(Transform{Shape(Sphere{1}), AffineMap(arm)})};
     const double exact = 4 * std::atan(slow);
     const Impact found = first_impact(ball, rest, on_arm, at(1, slow, 0, {0, 0, 0}, {0, 0, 1}), 10);

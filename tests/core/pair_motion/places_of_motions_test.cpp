@@ -9,6 +9,7 @@
 #include "core/world/near_pairs.h"
 #include "tests/core/pair_distance/places.h"
 #include "tests/support/number_of_cases.h"
+#include "tests/support/shifted.h"
 
 namespace minkray::testing {
 namespace {
@@ -67,7 +68,7 @@ TEST(Places, times_of_impact_are_the_same_in_poses_and_shapes_that_are_moved) {
       // Without turns the frame is no matter.
       there.b.pose = here.b.pose;
       const Shape of_a = moved(under(pair.a, pair.pose_a), way);
-      there.a.pose = {Mat3<double>::Identity(), -way};
+      there.a.pose = shifted_by(-way);
       const Impact in_shape =
           first_impact(ContactShape(of_a), there.a, ContactShape(pair.b), there.b, 1.5);
       const double speed = (here.b.velocity - here.a.velocity).norm();
@@ -90,15 +91,11 @@ TEST(Places, balls_meet_when_their_closed_form_says) {
                    0.5 * random.direction();
       if (k % 2 == 0) a.angular_velocity = random.direction();
       const double radius_a = random.in(0.1, 0.5), radius_b = random.in(0.1, 0.5);
-      QuadVec x, v;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto e = static_cast<Eigen::Index>(i);
-        x[i] = Quad(b.pose.translation[e]) - Quad(a.pose.translation[e]);
-        v[i] = Quad(b.velocity[e]) - Quad(a.velocity[e]);
-      }
-      const Quad r = Quad(radius_a) + Quad(radius_b), towards = -quad_dot(x, v),
-                 vv = quad_dot(v, v), inside = towards * towards - vv * (quad_dot(x, x) - r * r);
-      if (!(quad_dot(x, x) > r * r)) continue;
+      const QuadVec x = quad(b.pose.translation) - quad(a.pose.translation),
+                    v = quad(b.velocity) - quad(a.velocity);
+      const Quad r = Quad(radius_a) + Quad(radius_b), towards = -x.dot(v), vv = v.squaredNorm(),
+                 inside = towards * towards - vv * (x.squaredNorm() - r * r);
+      if (!(x.squaredNorm() > r * r)) continue;
       const Impact found = first_impact(ContactShape(Shape(Sphere{radius_a})), a,
                                         ContactShape(Shape(Sphere{radius_b})), b, 3);
       const Quad time = inside > 0 ? (towards - root(inside)) / vv : Quad(-1);

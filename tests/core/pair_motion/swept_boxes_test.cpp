@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/pair_distance/random_bodies.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -79,7 +80,7 @@ TEST(SweptBoxes, with_parallel_sides_that_pass_beside_or_behind_each_other_miss)
         std::pair{Vec3<double>(5, 0, 0), Vec3<double>(1, 0, 0)},         // away
         std::pair{Vec3<double>(9, 0, 0), Vec3<double>(-1, 0, 0)},        // later than that
         std::pair{Vec3<double>(3, 5, 0), Vec3<double>(-1, -0.5, 0)}}) {  // past a corner
-    const TwoBoxes boxes{half, half, {Mat3<double>::Identity(), place}, velocity, 5};
+    const TwoBoxes boxes{half, half, shifted_by(place), velocity, 5};
     const SweptTime found = boxes.swept();
     EXPECT_EQ(found.status, SweptStatus::miss) << place.transpose();
     EXPECT_EQ(complaint(boxes, found), "") << place.transpose();
@@ -161,7 +162,7 @@ TEST(SweptBoxes, that_meet_with_faces_are_told_no_point_beside_one_of_them) {
   int hits = 0;
   for (const double beside : {-1e-10, -1e-11, 0.0, 1e-11, 1e-10})
     for (const int side : {1, 2}) {
-      TwoBoxes boxes{{1, 1, 1}, {1, 1, 1}, {Mat3<double>::Identity(), {5, 0, 0}}, {-1, 0, 0}, 9};
+      TwoBoxes boxes{{1, 1, 1}, {1, 1, 1}, shifted_by(5, 0, 0), {-1, 0, 0}, 9};
       boxes.pose_b.translation[side] = beside;
       const SweptTime found = boxes.swept();
       if (found.status != SweptStatus::hit) continue;

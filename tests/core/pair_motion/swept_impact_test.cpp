@@ -7,6 +7,7 @@
 
 #include "core/pair_motion/impact.h"
 #include "tests/core/pair_distance/pair_judge.h"
+#include "tests/support/shifted.h"
 
 namespace minkray::testing {
 namespace {
@@ -16,7 +17,7 @@ struct Moving {
   RigidMotion of_a, of_b;
   double t_max;
 
-  double size() const { return a.ready.ball_radius() + b.ready.ball_radius(); }
+  double size() const { return size_of(a, b); }
   double speed() const { return (of_b.velocity - of_a.velocity).norm(); }
   Body a_at(double t) const { return {a.shape, of_a.at(t)}; }
   Body b_at(double t) const { return {b.shape, of_b.at(t)}; }
@@ -84,7 +85,7 @@ TEST(SweptImpact, of_polytopes_is_exact) {
   const Mat3<double> on_diagonal =
       Eigen::Quaterniond::FromTwoVectors(Vec3<double>(1, 1, 1), Vec3<double>(0, 0, -1))
           .toRotationMatrix();
-  const RigidMotion still{{Mat3<double>::Identity(), Vec3<double>::Zero()}},
+  const RigidMotion still{{}},
       falling{{on_diagonal, Vec3<double>(0.3, 0.2, 4)}, Vec3<double>(0.1, 0.2, -2)};
   const Impact found = first_impact(plate, still, cube, falling, 10);
   const double exact = (4 - 0.25 - std::sqrt(0.75)) / 2;
@@ -99,7 +100,7 @@ TEST(SweptImpact, of_polytopes_is_exact) {
 
 TEST(SweptImpact, of_a_miss_tells_the_distance_at_the_end_if_it_is_asked_for) {
   const ContactShape ball(Shape(Sphere{1}));
-  const RigidMotion still{{Mat3<double>::Identity(), Vec3<double>::Zero()}},
+  const RigidMotion still{{}},
       passing{{Mat3<double>::Identity(), Vec3<double>(-5, 3, 0)}, Vec3<double>(1, 0, 0)};
   const Impact found = first_impact(ball, still, ball, passing, 5);
   ASSERT_EQ(found.status, ImpactStatus::miss);
@@ -117,8 +118,7 @@ TEST(SweptImpact, does_not_depend_on_how_fast_the_two_are) {
       cylinder(Shape(Cylinder{1, 1})), ellipsoid(Shape(Ellipsoid{{1, 0.9, 0.8}})),
       rod(Shape(Capsule{1, 5}));
   const auto at = [](double x, double speed) {
-    return RigidMotion{{Mat3<double>::Identity(), Vec3<double>(x, 0, 0)},
-                       Vec3<double>(speed, 0, 0)};
+    return RigidMotion{shifted_by(x, 0, 0), Vec3<double>(speed, 0, 0)};
   };
   for (const ContactShape& shape : {ball, box, cylinder, ellipsoid, rod})
     for (const double speed :
@@ -157,8 +157,7 @@ TEST(SweptImpact, what_comes_straight_at_the_other_from_far_away_is_no_miss) {
         // Distances that are no numbers are searched for long.
         if (far > 1e150 && &b != &shapes.front()) continue;
         const Vec3<double> x = far * random.direction();
-        const RigidMotion still{{Mat3<double>::Identity(), Vec3<double>::Zero()}},
-            coming{{Mat3<double>::Identity(), x}, -x};
+        const RigidMotion still{{}}, coming{{Mat3<double>::Identity(), x}, -x};
         const ImpactStatus status =
             first_impact(ContactShape(a), still, ContactShape(b), coming, 2).status;
         EXPECT_EQ(status, far < 1e6 ? ImpactStatus::hit : ImpactStatus::undecided) << far;

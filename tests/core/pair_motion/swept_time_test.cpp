@@ -8,6 +8,7 @@
 #include "core/pair/contact_shape.h"
 #include "core/pair_motion/swept_closed.h"
 #include "tests/core/pair_distance/random_bodies.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -20,7 +21,7 @@ struct TwoBodies {
   Affine<double> pose_a, pose_b;
 
   TwoBodies(const Shape& first, const Shape& second, const Vec3<double>& place)
-      : a(first), b(second), pose_b{Mat3<double>::Identity(), place} {}
+      : a(first), b(second), pose_b{shifted_by(place)} {}
   CorePair pair() const { return pair_of(a, pose_a, pose_a.linear, b, pose_b); }
 };
 

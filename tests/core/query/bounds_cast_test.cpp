@@ -6,6 +6,7 @@
 #include "core/derived/shape_bounds.h"
 #include "core/query/bounds_cast.h"
 #include "tests/support/random.h"
+#include "tests/support/shifted.h"
 
 namespace minkray::testing {
 namespace {
@@ -70,10 +71,9 @@ void check_against_slabs(const Affine<double>& map, double distance) {
     const Ray<double> ray{map(o).cast<double>(), Vec3<double>(map.linear * d).cast<double>()};
     const BoundsCast<double> bounds = box.cast(ray);
     ASSERT_NE(bounds.open, bounds.miss);
-    const Ray<double> known = ray;
     const Mat3<Long> back = box.pose.linear.cast<Long>().inverse();
-    const Vec3<Long> from = back * (known.origin - box.pose.translation).cast<Long>();
-    const Vec3<Long> along = (back * known.direction.cast<Long>()).normalized();
+    const Vec3<Long> from = back * (ray.origin - box.pose.translation).cast<Long>();
+    const Vec3<Long> along = (back * ray.direction.cast<Long>()).normalized();
     const double left = room(box.half_extents, from, along);
     // A line so near may get either result: rounding, as a part of the thinnest side.
     const double rounding = 200 * std::numeric_limits<double>::epsilon() * distance /
@@ -98,7 +98,7 @@ void check_against_slabs(const Affine<double>& map, double distance) {
   EXPECT_GT(passes, 500);
 }
 
-const Affine<double> as_it_is{Mat3<double>::Identity(), {0, 0, 0}};
+const Affine<double> as_it_is{shifted_by(0, 0, 0)};
 
 TEST(BoundsCast, tells_lines_that_pass_by_the_box) {
   check_against_slabs(as_it_is, 4);
@@ -128,11 +128,10 @@ void check_edges(const Affine<double>& map) {
     const Vec3<double> d = outward.cross(random.direction());
     const Vec3<double> o = at - d.normalized() * random.uniform(1, 4);
     const Ray<double> ray{map(o).cast<double>(), Vec3<double>(map.linear * d).cast<double>()};
-    const Ray<double> known = ray;
     const Mat3<Long> back = box.pose.linear.cast<Long>().inverse();
     const double left =
-        room(box.half_extents, back * (known.origin - box.pose.translation).cast<Long>(),
-             (back * known.direction.cast<Long>()).normalized());
+        room(box.half_extents, back * (ray.origin - box.pose.translation).cast<Long>(),
+             (back * ray.direction.cast<Long>()).normalized());
     if (left < 0) continue;
     ++touch;
     ASSERT_TRUE(box.cast(ray).open) << i << ": " << left;

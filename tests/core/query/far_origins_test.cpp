@@ -6,53 +6,37 @@
 #include "core/cast/cast.h"
 #include "core/query/near_segment.h"
 #include "core/query/ray_near_ball.h"
+#include "tests/oracle/quad.h"
 #include "tests/support/random.h"
 
 namespace minkray::testing {
 namespace {
 
-__extension__ using Quad = __float128;
-using QuadPoint = std::array<Quad, 3>;
-
 /// origin + t * direction, from `centre`.
-QuadPoint along(const Ray<double>& ray, Quad t, const Vec3<double>& centre) {
-  QuadPoint p;
-  for (int k = 0; k < 3; ++k)
-    p[static_cast<std::size_t>(k)] =
-        Quad(ray.origin[k]) + t * Quad(ray.direction[k]) - Quad(centre[k]);
-  return p;
+QuadVec along(const Ray<double>& ray, Quad t, const Vec3<double>& centre) {
+  return quad(ray.origin) + t * quad(ray.direction) - quad(centre);
 }
 
-Quad dot(const QuadPoint& a, const QuadPoint& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+double size_of(const QuadVec& p) {
+  return std::sqrt(static_cast<double>(p.squaredNorm()));
 }
 
-double size_of(const QuadPoint& p) {
-  return std::sqrt(static_cast<double>(dot(p, p)));
-}
-
-/// The line's point that is nearest to the centre, from there. The first step is to a number of T:
+/// The line's point closest to the centre, from there. `first_step` is so short a number that
 /// its products with the direction are exact.
-QuadPoint closest_approach(const Ray<double>& ray, double first_step, const Vec3<double>& centre) {
-  QuadPoint at = along(ray, Quad(first_step), centre);
-  const QuadPoint way = along({{0, 0, 0}, ray.direction}, Quad(1), {0, 0, 0});
-  const Quad left = -dot(at, way) / dot(way, way);
-  for (std::size_t k = 0; k < 3; ++k) at[k] += left * way[k];
-  return at;
+QuadVec closest_approach(const Ray<double>& ray, double first_step, const Vec3<double>& centre) {
+  const QuadVec at = along(ray, first_step, centre), way = quad(ray.direction);
+  return at - (at.dot(way) / way.squaredNorm()) * way;
 }
 
-double distance(const Vec3<double>& s, const QuadPoint& p) {
-  QuadPoint apart;
-  for (int k = 0; k < 3; ++k)
-    apart[static_cast<std::size_t>(k)] = Quad(s[k]) - p[static_cast<std::size_t>(k)];
-  return size_of(apart);
+double distance(const Vec3<double>& s, const QuadVec& p) {
+  return size_of(QuadVec(quad(s) - p));
 }
 
 /// At a point of the unit ball around the origin, from so far away.
 Ray<double> from(double distance, Random& random) {
   const Vec3<double> target = random.direction() * random.uniform(0, 0.8);
   const Vec3<double> way = random.direction() * distance;
-  return {(target - way).cast<double>(), way.cast<double>()};
+  return {target - way, way};
 }
 
 /// Error of positions that casts compute for rays from 2^least to 2^most radii, in roundings of
@@ -61,11 +45,11 @@ double worst_position(double least, double most) {
   Random random(41);
   double worst = 0;
   for (int i = 0; i < 4000; ++i) {
-    const Vec3<double> centre = random.in_cube().cast<double>();
+    const Vec3<double> centre = random.in_cube();
     const Ray<double> ray = from(std::exp2(random.uniform(least, most)), random);
     RayNearBall<double> near = ray_near(centre, ray);
     if (near.is_from_afar(1.0)) near = ray_near_from_afar(centre, ray);
-    const QuadPoint nearest = closest_approach(ray, near.t_base, centre);
+    const QuadVec nearest = closest_approach(ray, near.t_base, centre);
     // The line may pass the ball by, rounded as its origin is.
     const double scale = std::max(1.0, size_of(nearest));
     worst = std::max(worst, distance(near.s, nearest) / scale);
@@ -83,8 +67,7 @@ TEST(FarOrigins, cost_no_digit_of_a_position) {
 /// from further away, no hit has. Rays that lead away miss, wherever they begin.
 void check_hits(double limit) {
   const PreparedShape ball{Shape(Sphere{1.0})};
-  CastOptions options;
-  options.solver = SolverKind::paper;  // closed forms end before
+  const CastOptions options{SolverKind::paper};  // closed forms end before
   Random random(43);
   int hits = 0;
   for (int i = 0; i < 4000; ++i) {
@@ -105,7 +88,7 @@ void check_hits(double limit) {
     ASSERT_LT(away.normal.dot(ray.direction), 0.0) << power;
     if (answer.status != Status::hit) continue;
     ++hits;
-    const QuadPoint spot = along(ray, Quad(answer.t_base) + Quad(answer.t_offset), {0, 0, 0});
+    const QuadVec spot = along(ray, Quad(answer.t_base) + Quad(answer.t_offset), {0, 0, 0});
     ASSERT_NEAR(size_of(spot), 1, 0.2) << power;
   }
   EXPECT_GT(hits, 500);
@@ -119,8 +102,7 @@ TEST(FarOrigins, are_answered_up_to_where_t_tells_the_spot) {
 /// more than that misses it, and closer ones may have any result.
 void check_misses(double limit) {
   const PreparedShape ball{Shape(Sphere{1.0})};
-  CastOptions options;
-  options.solver = SolverKind::paper;
+  const CastOptions options{SolverKind::paper};
   Random random(53);
   int missed = 0, unknown = 0;
   for (int i = 0; i < 4000; ++i) {
@@ -176,9 +158,8 @@ TEST(FarOrigins, are_proven_with_all_digits_or_refused) {
     }
     if (near.is_too_far) continue;
     // In two steps, whose products are exact.
-    QuadPoint at = along(ray, Quad(near.t_base), near.centre);
-    for (std::size_t k = 0; k < 3; ++k)
-      at[k] += Quad(near.t_shift) * Quad(ray.direction[static_cast<int>(k)]);
+    const QuadVec at =
+        along(ray, near.t_base, near.centre) + Quad(near.t_shift) * quad(ray.direction);
     worst = std::max(worst, distance(near.s, at) / std::max(1.0, size_of(at)));
   }
   EXPECT_LT(worst, std::numeric_limits<double>::epsilon());

@@ -49,12 +49,11 @@ TEST(Supports, maximise_over_the_support_points_of_other_directions) {
   for (const SampleShape& sample : shapes()) {
     const Shape shape = sample.shape;
     const double rounding =
-        rounding_in_epsilons * double(std::numeric_limits<double>::epsilon()) * size_of(shape);
+        rounding_in_epsilons * std::numeric_limits<double>::epsilon() * size_of(shape);
     std::vector<Vec3<double>> n, s;
     for (const auto& direction : all) {
-      const Vec3<double> rounded = direction.cast<double>();
-      n.push_back(rounded.cast<double>());
-      s.push_back(shape.support(rounded).cast<double>());
+      n.push_back(direction);
+      s.push_back(shape.support(direction));
     }
     for (std::size_t i = 0; i < n.size(); ++i)
       for (std::size_t j = 0; j < n.size(); ++j)
@@ -69,14 +68,14 @@ TEST(Supports, do_not_depend_on_the_length_of_the_direction) {
   for (const SampleShape& sample : shapes()) {
     const Shape shape = sample.shape;
     const double rounding =
-        rounding_in_epsilons * double(std::numeric_limits<double>::epsilon()) * size_of(shape);
+        rounding_in_epsilons * std::numeric_limits<double>::epsilon() * size_of(shape);
     for (const auto& direction : all)
       for (const double length : {0x1p-40, 0x1p40}) {
-        const Vec3<double> n = direction.cast<double>();
-        const Vec3<double> longer = n * double(length);
-        const double here = double(n.dot(shape.support(n))),
-                     there = double(n.dot(shape.support(longer)));
-        ASSERT_NEAR(here, there, rounding) << sample.name << ", n " << direction.transpose();
+        const Vec3<double> longer = direction * double(length);
+        const double here = double(direction.dot(shape.support(direction))),
+                     there = double(direction.dot(shape.support(longer)));
+        ASSERT_NEAR(here, there, rounding)
+            << sample.name << ", direction " << direction.transpose();
       }
   }
 }
@@ -85,12 +84,10 @@ TEST(Supports, of_a_zero_direction_are_points_of_the_shape) {
   for (const SampleShape& sample : shapes()) {
     const Shape shape = sample.shape;
     const double rounding =
-        rounding_in_epsilons * double(std::numeric_limits<double>::epsilon()) * size_of(shape);
-    const Vec3<double> some = shape.support(Vec3<double>(Vec3<double>::Zero())).cast<double>();
+        rounding_in_epsilons * std::numeric_limits<double>::epsilon() * size_of(shape);
+    const Vec3<double> some = shape.support(Vec3<double>(Vec3<double>::Zero()));
     for (const auto& direction : directions(4, 100)) {
-      const Vec3<double> n = direction.cast<double>();
-      const Vec3<double> exact = n.cast<double>();
-      ASSERT_LE(exact.dot(some), exact.dot(shape.support(n).cast<double>()) + rounding)
+      ASSERT_LE(direction.dot(some), direction.dot(shape.support(direction)) + rounding)
           << sample.name;
     }
   }
@@ -105,7 +102,7 @@ TEST(Supports, bounds_contain_and_touch) {
                             double(size_of(shape));
     Bounds<double> reached;
     for (const auto& direction : directions(5, 500)) {
-      const Vec3<double> s = shape.support(Vec3<double>(direction.cast<double>()));
+      const Vec3<double> s = shape.support(Vec3<double>(direction));
       reached.extend(s);
       ASSERT_LE((s - ball.centre).norm(), ball.radius + rounding) << sample.name;
     }
@@ -196,12 +193,12 @@ std::vector<Pair> pairs() {
 TEST(Supports, two_ways_to_say_a_shape_have_one_support_function) {
   for (const Pair& pair : pairs()) {
     const Shape a = pair.a, b = pair.b;
-    const double rounding = rounding_in_epsilons * double(std::numeric_limits<double>::epsilon()) *
+    const double rounding = rounding_in_epsilons * std::numeric_limits<double>::epsilon() *
                             std::max(size_of(a), size_of(b));
     for (const auto& direction : directions(6, 400)) {
-      const Vec3<double> n = direction.cast<double>();
-      ASSERT_NEAR(double(n.dot(a.support(n))), double(n.dot(b.support(n))), rounding)
-          << pair.name << ", n " << direction.transpose();
+      ASSERT_NEAR(double(direction.dot(a.support(direction))),
+                  double(direction.dot(b.support(direction))), rounding)
+          << pair.name << ", direction " << direction.transpose();
     }
   }
 }

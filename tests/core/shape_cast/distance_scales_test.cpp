@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/shape_cast/random_poses.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -40,14 +41,14 @@ TEST(Distance, scales_with_the_world) {
 void expect_scales_to(int least_power, int greatest_power) {
   for (int power = least_power; power <= greatest_power; ++power) {
     const double size = static_cast<double>(std::pow(10.0, power));
-    const Affine<double> far{Mat3<double>::Identity(), {0.0, 4.0 * size, 0.0}};
+    const Affine<double> far{shifted_by(0.0, 4.0 * size, 0.0)};
     const Shape ball = Sphere{size}, box = Box{Vec3<double>::Constant(size)};
     for (const auto& [a, b] : {std::pair(ball, ball), std::pair(ball, box), std::pair(box, box)}) {
       const auto result = distance_between(centred(a), centred(b, far));
       ASSERT_EQ(name_of(result.status), name_of(DistanceStatus::separated)) << power;
       ASSERT_NEAR(double(result.distance / size), 2, 1e-5) << power;
       ASSERT_NEAR(double(result.point_b.y() / size), 3, 1e-5) << power;
-      const Affine<double> near{Mat3<double>::Identity(), {0.0, size, 0.0}};
+      const Affine<double> near{shifted_by(0.0, size, 0.0)};
       ASSERT_EQ(name_of(distance_between(centred(a), centred(b, near)).status),
                 name_of(DistanceStatus::overlapping))
           << power;
@@ -58,8 +59,8 @@ void expect_scales_to(int least_power, int greatest_power) {
 TEST(Distance, scales_to_the_ends_of_the_number_range) {
   expect_scales_to(-290, 300);
   const auto none = distance_between(
-      centred(Sphere{1}), centred(Sphere{1}, {Mat3<double>::Identity(),
-                                              {std::numeric_limits<double>::infinity(), 0, 0}}));
+      centred(Sphere{1}),
+      centred(Sphere{1}, shifted_by(std::numeric_limits<double>::infinity(), 0, 0)));
   EXPECT_EQ(none.status, DistanceStatus::exhausted);
 }
 
@@ -70,8 +71,7 @@ void expect_overlap_in_one_place(const std::vector<int>& powers) {
     const Shape ball = Sphere{size}, box = Box{Vec3<double>::Constant(size)};
     for (const auto& [a, b] : {std::pair(ball, ball), std::pair(box, box), std::pair(ball, box)})
       for (const double away : {0.0, std::numeric_limits<double>::min()}) {
-        const auto result =
-            distance_between(centred(a), centred(b, {Mat3<double>::Identity(), {0.0, away, 0.0}}));
+        const auto result = distance_between(centred(a), centred(b, shifted_by(0.0, away, 0.0)));
         ASSERT_EQ(name_of(result.status), name_of(DistanceStatus::overlapping)) << power;
         ASSERT_LE(double((result.point_a - result.point_b).norm() / size), 1e-5) << power;
         ASSERT_LE(double(result.point_a.cwiseAbs().maxCoeff() / size), 1 + 1e-5) << power;
@@ -87,11 +87,9 @@ TEST(Distance, of_equal_shapes_in_one_place_is_none) {
 /// here are what more digits for the simplices leave.
 void expect_precise(double allowed) {
   const auto error = [](const Shape& a, const Shape& b, const Vec3<double>& offset, double exact) {
-    const auto result =
-        distance_between(centred(a), centred(b, {Mat3<double>::Identity(), offset.cast<double>()}));
+    const auto result = distance_between(centred(a), centred(b, shifted_by(offset)));
     EXPECT_EQ(name_of(result.status), name_of(DistanceStatus::separated));
-    EXPECT_LE(double(result.lower),
-              exact * (1 + 4 * double(std::numeric_limits<double>::epsilon())));
+    EXPECT_LE(double(result.lower), exact * (1 + 4 * std::numeric_limits<double>::epsilon()));
     return std::abs(double(result.distance) - exact) / exact;
   };
   const Shape triangle =

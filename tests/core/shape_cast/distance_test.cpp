@@ -5,6 +5,7 @@
 
 #include "tests/core/shape_cast/random_poses.h"
 #include "tests/oracle/wolfe.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -59,7 +60,7 @@ TEST(Distance, of_random_hulls_is_that_of_wolfes_method) {
     const Vec3<double> shift = random.in_cube(1.6);
     const double expected = wolfe_distance<3>(a, b, shift);
     const auto A = place(Hull{PointCloud(a)});
-    const auto B = place(Hull{PointCloud(b)}, {Mat3<double>::Identity(), shift});
+    const auto B = place(Hull{PointCloud(b)}, shifted_by(shift));
     for (const SubalgorithmKind kind : all_kinds) {
       const DistanceResult<double, 3> result = distance_between(A, B, {}, kind);
       EXPECT_NE(result.status, DistanceStatus::exhausted) << i;
@@ -82,7 +83,7 @@ TEST(Distance, in_the_plane_is_wolfes_and_that_of_flat_shapes_in_space) {
     shift.z() = 0;
     const double expected = wolfe_distance<2>(a, b, shift);
     const auto A = place(Hull{PointCloud(a)});
-    const auto B = place(Hull{PointCloud(b)}, {Mat3<double>::Identity(), shift});
+    const auto B = place(Hull{PointCloud(b)}, shifted_by(shift));
     for (const SubalgorithmKind kind : all_kinds)
       EXPECT_NEAR(distance_in_plane(A, B, {}, kind).distance, expected, 4 * slack(kind)) << i;
     EXPECT_NEAR(distance_between(A, B).distance, expected, 1e-13) << i;
@@ -101,7 +102,7 @@ TEST(Distance, has_the_closed_form_of_balls_boxes_and_capsules) {
     const Vec3<double> c = random.in_cube(5);
     const double r = random.in(0.1, 1), q = random.in(0.1, 1);
     const auto check = [&](const Shape& a, const Shape& b, double expected) {
-      const auto A = place(a), B = place(b, {Mat3<double>::Identity(), c});
+      const auto A = place(a), B = place(b, shifted_by(c));
       const auto result = distance_between(A, B);
       EXPECT_NEAR(result.distance, std::max(expected, 0.0), 4e-14) << i;
       expect_certified(A, B, result, 10.0);
@@ -138,8 +139,7 @@ TEST(Distance, of_deep_overlap_is_zero_and_says_so) {
 
 TEST(Distance, of_a_touching_rim_is_overlap) {
   const auto result =
-      distance_between(centred(Box{{3, 1, 1}}),
-                       centred(Cone{1, 3}, {Mat3<double>::Identity(), Vec3<double>(4, 0, 2)}));
+      distance_between(centred(Box{{3, 1, 1}}), centred(Cone{1, 3}, shifted_by(4, 0, 2)));
   EXPECT_EQ(name_of(result.status), name_of(DistanceStatus::overlapping));
 }
 

@@ -64,12 +64,12 @@ TEST(GrazingContacts, that_overlap_by_little_more_than_rounding_are_as_deep_as_a
   for (int k = 0; k < 3 * kinds * kinds; ++k) {
     auto [a, b] = testing::random_pair(k % kinds, k / kinds % kinds, 0, random);
     if (k % 2 == 1) b.pose.linear = a.pose.linear;
-    const double size = a.ready.ball_radius() + b.ready.ball_radius();
+    const double size = testing::size_of(a, b);
     testing::bring_near(a, b, -std::pow(10, random.in(-14, -9)), size);
     SignedDistanceOptions options;
     options.tolerance = 1e-14;
     options.max_supports = 2000;
-    const SignedDistance found = signed_distance(a.ready, a.pose, b.ready, b.pose, options);
+    const SignedDistance found = signed_distance(a, b, options);
     exhausted += found.is_exhausted;
     if (found.is_exhausted) continue;
     ASSERT_EQ(testing::complaint(a, b, found, random), "") << k;

@@ -7,6 +7,7 @@
 #include "core/shape_cast/distance.h"
 #include "core/shape_cast/shape_cast.h"
 #include "tests/core/pair_distance/random_numbers.h"
+#include "tests/support/shifted.h"
 
 namespace minkray::testing {
 
@@ -27,7 +28,7 @@ class RandomPoses : public RandomNumbers {
 };
 
 inline Affine<double> at(const Vec3<double>& where) {
-  return {Mat3<double>::Identity(), where};
+  return shifted_by(where);
 }
 inline Affine<double> at(double x, double y, double z) {
   return at(Vec3<double>(x, y, z));

@@ -5,6 +5,7 @@
 
 #include "core/shape_cast/distance.h"
 #include "tests/support/random.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -17,7 +18,7 @@ MovingBody bar() {
   return {Box{{2, 0.1, 0.1}}, {}, V::Zero(), V(0, 0, 1)};
 }
 MovingBody ball() {
-  return {Sphere{0.25}, {Mat3<double>::Identity(), V(0, 1.5, 0)}, V::Zero(), V::Zero()};
+  return {Sphere{0.25}, shifted_by(V(0, 1.5, 0)), V::Zero(), V::Zero()};
 }
 // The ball's centre is sin(angle between) * 1.5 = 0.35 off the bar's axis: 90 degrees less that.
 const double truth = std::acos(-1.0) / 2 - std::asin(0.35 / 1.5);
@@ -126,10 +127,8 @@ void expect_turns_of_any_speed(const std::vector<int>& powers) {
     const auto speed = [power](double x) { return static_cast<double>(std::ldexp(x, power)); };
     const MovingBody rod{
         Capsule{0.1, 5.0}, {}, Vec3<double>::Zero(), {speed(0.01), speed(1), speed(-0.02)}};
-    const MovingBody beside{Sphere{1},
-                            {Mat3<double>::Identity(), {4, 0, 0}},
-                            {speed(-0.1), 0, speed(0.05)},
-                            Vec3<double>::Zero()};
+    const MovingBody beside{
+        Sphere{1}, shifted_by(4, 0, 0), {speed(-0.1), 0, speed(0.05)}, Vec3<double>::Zero()};
     return cast_rotating(rod, beside, static_cast<double>(std::ldexp(3.0, -power)), 64);
   };
   const auto once = cast(0);

@@ -41,8 +41,7 @@ TEST(ShapeCast, ends_where_bisection_on_the_distance_ends_with_every_solver) {
       (overlap_at(middle) ? together : apart) = middle;
     }
     for (const SolverDescription& solver : solver_descriptions) {
-      CastOptions options;
-      options.solver = solver.kind;
+      const CastOptions options{solver.kind};
       const auto result = cast_shape(pair, d, 1, options);
       const bool is_determinant = solver.kind == SolverKind::paper_johnson ||
                                   solver.kind == SolverKind::paper_signed_volumes;
@@ -133,8 +132,7 @@ TEST(ShapeCast, of_two_moving_shapes_that_miss_has_no_points) {
   // met.
   const auto pair = pair_of(Sphere{1}, {}, Sphere{1}, at(V(10, 1.5, 1.5)));
   for (const SolverDescription& solver : solver_descriptions) {
-    CastOptions options;
-    options.solver = solver.kind;
+    const CastOptions options{solver.kind};
     const auto result = cast_shapes(pair, V(1, 1, 0), V(-1, 1, 0), 10, options);
     ASSERT_EQ(result.cast.status, Status::miss) << solver.name;
     EXPECT_EQ(result.point_a, V(0, 0, 0)) << solver.name;

@@ -5,14 +5,19 @@
 #include <sstream>
 
 #include "core/world/world.h"
+#include "tests/oracle/quad.h"
 #include "tests/support/meshes.h"
 #include "tests/support/number_of_cases.h"
 #include "tests/support/random.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
 
-__extension__ using Quad = __float128;
+using testing::quad;
+using testing::Quad;
+using testing::QuadVec;
+using testing::root;
 
 /// A body at a place: a sphere, a box, a half-space below z = place.z, or a mesh.
 struct Body {
@@ -35,7 +40,7 @@ struct Scenery {
     Instances instances;
     const auto shared = surface.shared();
     for (const Body& body : bodies) {
-      const Affine<double> at{Mat3<double>::Identity(), body.place};
+      const Affine<double> at{shifted_by(body.place)};
       if (body.kind == Body::ball)
         instances.add(Shape{Sphere{body.size}}, at);
       else if (body.kind == Body::block)
@@ -48,12 +53,6 @@ struct Scenery {
     return World(std::move(instances));
   }
 };
-
-Quad root(Quad x) {
-  Quad r = std::sqrt(double(x));
-  for (int i = 0; i < 3; ++i) r = (r + x / r) / 2;
-  return r;
-}
 
 /// Adds the ends of a line's part within a body, from `in` to `out`.
 void add(std::vector<TrueHit>& to, const Ray<double>& ray, std::uint32_t instance, Quad in,
@@ -68,16 +67,10 @@ void add(std::vector<TrueHit>& to, const Ray<double>& ray, std::uint32_t instanc
 void add_true_hits(const Scenery& scenery, std::uint32_t instance, const Ray<double>& ray,
                    std::vector<TrueHit>& to) {
   const Body& body = scenery.bodies[instance];
-  Quad o[3], d[3];
-  for (int k = 0; k < 3; ++k) {
-    o[k] = Quad(ray.origin[k]) - Quad(body.place[k]);
-    d[k] = ray.direction[k];
-  }
+  const QuadVec o = quad(ray.origin) - quad(body.place), d = quad(ray.direction);
   const Quad never = std::numeric_limits<double>::infinity();
   if (body.kind == Body::ball) {
-    const Quad a = d[0] * d[0] + d[1] * d[1] + d[2] * d[2],
-               b = o[0] * d[0] + o[1] * d[1] + o[2] * d[2],
-               c = o[0] * o[0] + o[1] * o[1] + o[2] * o[2] - Quad(body.size) * body.size;
+    const Quad a = d.squaredNorm(), b = o.dot(d), c = o.squaredNorm() - Quad(body.size) * body.size;
     const Quad inner = b * b - a * c;
     if (inner <= 0) return;
     add(to, ray, instance, (-b - root(inner)) / a, (-b + root(inner)) / a);
@@ -100,13 +93,10 @@ void add_true_hits(const Scenery& scenery, std::uint32_t instance, const Ray<dou
     add(to, ray, instance, d[2] < 0 ? t : -never, d[2] < 0 ? never : t);
   } else {
     for (const Corners& corners : scenery.surface.triangles) {
-      Quad p[3][3];
-      for (int i = 0; i < 3; ++i)
-        for (int k = 0; k < 3; ++k)
-          p[i][k] = Quad(scenery.surface.vertices[corners[std::size_t(i)]][k]) - o[k];
-      const auto volume = [&](const Quad* u, const Quad* v, const Quad* w) {
-        return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
-               u[2] * (v[0] * w[1] - v[1] * w[0]);
+      QuadVec p[3];
+      for (std::size_t i = 0; i < 3; ++i) p[i] = quad(scenery.surface.vertices[corners[i]]) - o;
+      const auto volume = [](const QuadVec& u, const QuadVec& v, const QuadVec& w) {
+        return u.dot(v.cross(w));
       };
       const Quad ab = volume(d, p[0], p[1]), bc = volume(d, p[1], p[2]), ca = volume(d, p[2], p[0]);
       if (!((ab > 0 && bc > 0 && ca > 0) || (ab < 0 && bc < 0 && ca < 0))) continue;
@@ -221,8 +211,8 @@ TEST(AllHits, the_first_entry_is_the_closest_hit_from_outside) {
 TEST(AllHits, ray_kinds_and_movements_are_those_of_closest_hits) {
   Instances instances;
   instances.add(Shape{Sphere{1}});
-  instances.add(testing::block({1, 1, 1}).shared(), {Mat3<double>::Identity(), {4, 0, 0}});
-  instances.add(Shape{Box{{1, 1, 1}}}, {Mat3<double>::Identity(), {8, 0, 0}});
+  instances.add(testing::block({1, 1, 1}).shared(), shifted_by(4, 0, 0));
+  instances.add(Shape{Box{{1, 1, 1}}}, shifted_by(8, 0, 0));
   instances.show_to(0, 1);
   instances.show_to(1, 2);
   World world(std::move(instances));
@@ -236,13 +226,10 @@ TEST(AllHits, ray_kinds_and_movements_are_those_of_closest_hits) {
   EXPECT_EQ(count(1, 0), 4u);
   EXPECT_EQ(count(2, 0), 4u);
   EXPECT_EQ(count(3, 0), 6u);
-  world.pose_all(
-      [](std::size_t i) {
-        return Affine<double>{Mat3<double>::Identity(), {4.0 * double(i), 0, 0}};
-      },
-      [](std::size_t) {
-        return Movement<double>{{0, 4, 0}};
-      });
+  world.pose_all([](std::size_t i) { return shifted_by(4.0 * double(i), 0, 0); },
+                 [](std::size_t) {
+                   return Movement<double>{{0, 4, 0}};
+                 });
   EXPECT_EQ(count(3, 0), 6u);
   EXPECT_EQ(count(3, 1), 0u);
   std::vector<WorldCrossing> found;
@@ -263,7 +250,7 @@ TEST(LastExit, is_the_last_of_all_triangles) {
   const TriangleMesh& mesh = *shared;
   int exits = 0, inside = 0;
   for (int i = 0; i < testing::number_of_cases(5000); ++i) {
-    const PosedMesh posed(0, shared, {Mat3<double>::Identity(), {0.5, 0, 0.25}});
+    const PosedMesh posed(0, shared, shifted_by(0.5, 0, 0.25));
     Ray<double> ray{2 * random.in_cube(), random.direction()};
     if (i % 3 == 0) ray.t_max = random.uniform(0, 3);
     Scenery one;

@@ -5,20 +5,20 @@
 
 #include "core/world/world.h"
 #include "tests/support/random.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
 
 Ray<double> ray_nearby(testing::Random& random) {
-  return {(5 * random.in_cube()).cast<double>(), random.direction().cast<double>()};
+  return {(5 * random.in_cube()), random.direction()};
 }
 
 TEST(HalfSpaces, where_a_ray_enters_its_height_is_zero_and_the_interval_holds_that) {
   testing::Random random(1);
   int hits = 0, inside = 0;
   for (int i = 0; i < 20000; ++i) {
-    const HalfSpaceBody<double> body{random.direction().cast<double>(),
-                                     double(random.uniform(-2, 2))};
+    const HalfSpaceBody<double> body{random.direction(), double(random.uniform(-2, 2))};
     const Ray<double> ray = ray_nearby(random);
     const CastResult<double> result = cast_ray(body, ray);
     const auto height = [&](long double t) {
@@ -80,13 +80,12 @@ World mixed_world(testing::Random& random) {
   Instances instances;
   for (int i = 0; i < 40; ++i) {
     if (i % 10 == 5) {
-      instances.add(
-          HalfSpaceBody<double>{random.direction().cast<double>(), double(-4 - i * 0.02)});
+      instances.add(HalfSpaceBody<double>{random.direction(), double(-4 - i * 0.02)});
       continue;
     }
     Sphere ball;
     ball.radius = 0.4;
-    instances.add(Shape(ball), {Mat3<double>::Identity(), (3 * random.in_cube()).cast<double>()});
+    instances.add(Shape(ball), shifted_by((3 * random.in_cube())));
   }
   return World(std::move(instances));
 }
@@ -130,9 +129,8 @@ TEST(HalfSpacesInWorlds, rays_together_answer_as_rays_alone) {
     const Vec3<double> from = 3 * random.in_cube(), along = random.direction();
     std::vector<WorldRay> rays;
     for (std::size_t k = 0; k < count; ++k)
-      rays.push_back(
-          {{from.cast<double>(), unit<double>(along + 0.1 * random.in_cube()).cast<double>()},
-           k % 7 == 0 ? static_cast<std::uint32_t>(random.below(40)) : no_instance});
+      rays.push_back({{from, unit<double>(along + 0.1 * random.in_cube())},
+                      k % 7 == 0 ? static_cast<std::uint32_t>(random.below(40)) : no_instance});
     std::vector<WorldHit> hits(count);
     QueryCounts counts;
     world.closest_hits(rays, hits, counts);
@@ -150,9 +148,8 @@ TEST(HalfSpacesInWorlds, rays_together_answer_as_rays_alone) {
 TEST(HalfSpaces, turning_and_moving_it_turns_and_moves_the_hit) {
   testing::Random random(4);
   for (int i = 0; i < 1000; ++i) {
-    const Affine<double> pose{random.rotation().cast<double>(), random.in_cube().cast<double>()};
-    const HalfSpaceBody<double> body{random.direction().cast<double>(),
-                                     double(random.uniform(-1, 1))};
+    const Affine<double> pose{random.rotation(), random.in_cube()};
+    const HalfSpaceBody<double> body{random.direction(), double(random.uniform(-1, 1))};
     const Ray<double> ray = ray_nearby(random);
     const CastResult<double> before = cast_ray(body, ray);
     const CastResult<double> after = cast_ray(
@@ -172,13 +169,10 @@ TEST(HalfSpaces, they_move_with_their_world_and_while_the_shutter_is_open) {
   const Ray<double> down{{0, 0, 5}, {0, 0, -1}};
   QueryCounts counts;
   EXPECT_EQ(world.closest_hit(down, counts).cast.t(), 5);
-  world.pose_all(
-      [](std::size_t) {
-        return Affine<double>{Mat3<double>::Identity(), {7, 0, 2}};
-      },
-      [](std::size_t) {
-        return Movement<double>{{0, 0, 1}};
-      });
+  world.pose_all([](std::size_t) { return shifted_by(7, 0, 2); },
+                 [](std::size_t) {
+                   return Movement<double>{{0, 0, 1}};
+                 });
   EXPECT_EQ(world.closest_hit(down, counts, no_instance, 0).cast.t(), 3);
   EXPECT_EQ(world.closest_hit(down, counts, no_instance, 1).cast.t(), 2);
 }

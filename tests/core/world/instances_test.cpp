@@ -6,6 +6,7 @@
 #include <random>
 
 #include "core/cast/cast.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -81,7 +82,7 @@ TEST(Instances, equal_shapes_share_a_definition) {
   EXPECT_EQ(instances.define(made()), first);
   EXPECT_EQ(instances.definitions(), 3u);
   for (int i = 0; i < 10; ++i)
-    instances.add(Shape(Sphere{double(1 + i % 2)}), {Mat3<double>::Identity(), {double(i), 0, 0}});
+    instances.add(Shape(Sphere{double(1 + i % 2)}), shifted_by(double(i), 0, 0));
   EXPECT_EQ(instances.definitions(), 5u);
 }
 
@@ -153,8 +154,8 @@ TEST(Instances, boxes_hold_their_instances_tightly) {
   }
   const FirstTouchVector<Bounds<float>> boxes = instances.take_boxes();
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const Vec3<double> extent = poses[i].linear.cast<double>().cwiseAbs() * half.cast<double>();
-    const Vec3<double> centre = poses[i].translation.cast<double>();
+    const Vec3<double> extent = poses[i].linear.cwiseAbs() * half;
+    const Vec3<double> centre = poses[i].translation;
     const double slack = 1e-5 * (extent.maxCoeff() + centre.norm());
     const double rounding = 1e-6 * slack;
     for (int axis = 0; axis < 3; ++axis) {

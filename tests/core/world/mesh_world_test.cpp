@@ -7,6 +7,7 @@
 #include "core/world/world.h"
 #include "tests/support/meshes.h"
 #include "tests/support/random.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -150,7 +151,7 @@ TEST(MeshWorld, a_ray_that_leaves_a_mesh_meets_what_is_beyond_and_not_where_it_b
 TEST(MeshWorld, is_shown_to_some_rays_only_and_moves) {
   Instances instances;
   instances.add(testing::block({1, 1, 1}).shared(), {});
-  instances.add(Sphere{0.5}, {Mat3<double>::Identity(), {0, 0, 5}});
+  instances.add(Sphere{0.5}, shifted_by(0, 0, 5));
   instances.show_to(0, 2);
   World world(std::move(instances));
   QueryCounts counts;
@@ -160,7 +161,7 @@ TEST(MeshWorld, is_shown_to_some_rays_only_and_moves) {
   EXPECT_EQ(world.closest_hit(ray, counts).instance, 1u);
   EXPECT_TRUE(world.occluded(ray, counts));
   ray.kinds = 2;
-  world.set_pose(0, {Mat3<double>::Identity(), {3, 0, 0}});
+  world.set_pose(0, shifted_by(3, 0, 0));
   const auto pose_of = [&](std::size_t i) { return *world.instances().plain_pose(i); };
   world.pose_all(pose_of);
   EXPECT_EQ(world.closest_hit(ray, counts).instance, 1u);

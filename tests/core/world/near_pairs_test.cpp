@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/core/pair_distance/random_bodies.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -94,8 +95,7 @@ TEST(NearPairs, the_nearest_bodies_are_those_of_a_look_at_all) {
 /// nothing else was searched.
 TEST(NearPairs, what_is_at_an_unknown_distance_is_not_the_nearest) {
   const auto ball_at = [](double x) {
-    return ContactBody{ContactShape(Shape(Sphere{1})),
-                       {Mat3<double>::Identity(), Vec3<double>(x, 0, 0)}};
+    return ContactBody{ContactShape(Shape(Sphere{1})), shifted_by(x, 0, 0)};
   };
   for (const bool is_first : {true, false}) {
     std::vector<ContactBody> bodies = {ball_at(5), ball_at(9)};

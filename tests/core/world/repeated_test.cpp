@@ -6,6 +6,7 @@
 
 #include "core/world/repeated.h"
 #include "core/world/world.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 using Pose = Affine<double>;
 
 Pose at(const Vec3<double>& place) {
-  return {Mat3<double>::Identity(), place};
+  return shifted_by(place);
 }
 
 /// `copies` of a turned box at the origin, between a near and a far sphere.

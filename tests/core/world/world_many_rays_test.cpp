@@ -75,7 +75,7 @@ TEST(WorldManyRays, half_spaces_and_instances_on_the_move) {
     Movement<double>& movement = movements.emplace_back();
     movement.shift = random.point(2);
     if (i % 3 == 0) continue;  // goes without turning
-    movement.angle = static_cast<double>(random.within(0, 3));
+    movement.angle = random.within(0, 3);
     movement.axis = unit<double>(random.point(1));
     movement.pivot = random.point(12);
   }

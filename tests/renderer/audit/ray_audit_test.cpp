@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "renderer/film/render.h"
+#include "tests/support/messages.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -13,7 +15,7 @@ namespace {
 Scene row_of_balls() {
   Scene scene;
   const auto add = [&](const char* name, Shape shape, const Vec3<double>& at) {
-    scene.objects.push_back({name, std::move(shape), {Mat3<double>::Identity(), at}, 0});
+    scene.objects.push_back({name, std::move(shape), shifted_by(at), 0});
   };
   add("near", Sphere{1}, {0, 0, 1});
   add("far", Sphere{1}, {5, 0, 1});
@@ -63,8 +65,8 @@ TEST(RayAudit, an_object_that_was_overlooked_is_named) {
   EXPECT_EQ(audited.failures(along_row, [](WorldHit& answer) { answer = {}; }), 1u);
   ASSERT_EQ(audited.audit.failures().size(), 2u);
   for (const AuditFailure& failure : audited.audit.failures()) {
-    EXPECT_NE(failure.message.find("near"), std::string::npos) << failure.message;
-    EXPECT_NE(failure.query.find("\"origin\":[-5.0,0.0,1.0]"), std::string::npos) << failure.query;
+    EXPECT_TRUE(has(failure.message, "near"));
+    EXPECT_TRUE(has(failure.query, "\"origin\":[-5.0,0.0,1.0]"));
   }
 }
 

@@ -9,6 +9,7 @@
 #include "renderer/base/errors.h"
 #include "renderer/clearance/swept_scene.h"
 #include "tests/renderer/clearance/arm.h"
+#include "tests/support/messages.h"
 
 namespace minkray {
 namespace {
@@ -328,12 +329,7 @@ TEST(Clearance, quaternions_turn_alike_whatever_their_length) {
 
 /// Error of making a path; empty if it is accepted.
 std::string refusal(const std::vector<JointRow>& rows) {
-  try {
-    JointPath(arm_model(), rows);
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
+  return message_of<BadInput>([&] { JointPath(arm_model(), rows); });
 }
 
 /// The way between such rows is infinite, which became 2^63 parts of a sweep.
@@ -342,12 +338,11 @@ TEST(Clearance, rows_that_nobody_can_go_between_are_refused) {
             "path: row 2 of 2: the joint \"elbow\" must not change by more than the range of "
             "double in one step (-1e+308 to 1e+308)");
   EXPECT_EQ(refusal({{0, {{"elbow", {1e308}}}}, {1, {{"elbow", {1.1e308}}}}}), "");
-  EXPECT_NE(refusal({{0, {{"wrist", {std::numeric_limits<double>::infinity()}}}}}).find("finite"),
-            std::string::npos);
+  EXPECT_TRUE(
+      has(refusal({{0, {{"wrist", {std::numeric_limits<double>::infinity()}}}}}), "finite"));
   // The joint was assumed at rest through the first step, and at its given value from there on.
-  EXPECT_NE(refusal({{0, {{"elbow", {0.0}}}}, {1, {{"elbow", {0.0}}, {"wrist", {0.5}}}}})
-                .find("row 2 of 2: the joint \"wrist\" must have a value from the first row on"),
-            std::string::npos);
+  EXPECT_TRUE(has(refusal({{0, {{"elbow", {0.0}}}}, {1, {{"elbow", {0.0}}, {"wrist", {0.5}}}}}),
+                  "row 2 of 2: the joint \"wrist\" must have a value from the first row on"));
 }
 
 /// Two slides that go as far as numbers reach, and together further.

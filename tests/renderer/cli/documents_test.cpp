@@ -67,7 +67,7 @@ bool is_name(const std::string& word) {
 bool has_option(const std::string& verb, const std::string& option) {
   static std::map<std::string, std::string> helps;
   std::string& help = helps[verb];
-  if (help.empty()) help = run_shell("$MINKRAY " + verb + " --help").out;
+  if (help.empty()) help = run_minkray(verb + " --help").out;
   return std::regex_search(help, std::regex("\n  [^ ][^ ]*" + option + "[ ,{]")) ||
          std::regex_search(help, std::regex("\n  " + option + "[ ,{]"));
 }

@@ -25,10 +25,11 @@ class Drivers : public ::testing::Test {
                      "export OMPI_ALLOW_RUN_AS_ROOT OMPI_ALLOW_RUN_AS_ROOT_CONFIRM\n" +
                      command);
   }
+  ProgramOutcome minkray(const std::string& words) const { return shell("\"$MINKRAY\" " + words); }
   /// The picture that all ways must lead to.
   void expect_same_picture(const ProgramOutcome& outcome) const {
     EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-    EXPECT_EQ(shell("\"$MINKRAY\" render scene.json -s 8 -o whole.pfm").exit_code, 0);
+    EXPECT_EQ(minkray("render scene.json -s 8 -o whole.pfm").exit_code, 0);
     EXPECT_EQ(text_of_file(folder_ / "whole.pfm"), text_of_file(folder_ / "a.pfm"));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "a.pfm.parts"));
   }

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "tests/renderer/cli/drivers.h"
+#include "tests/support/expect_exit.h"
 
 namespace minkray {
 namespace {
@@ -26,10 +27,10 @@ TEST_F(Drivers, gnu_parallel) {
   EXPECT_NE(failed.exit_code, 0);
   EXPECT_FALSE(fs::exists(folder_ / "b.pfm"));
   EXPECT_TRUE(fs::exists(folder_ / "b.pfm.parts/1-of-3.exr"));
-  const ProgramOutcome again = shell(
-      "rmdir b.pfm.parts/2-of-3.exr; \"$DRIVERS/render-parallel\" scene.json b.pfm 3 -s 8 && "
-      "cmp a.pfm b.pfm");
-  EXPECT_EQ(again.exit_code, 0) << again.err;
+  expect_exit(
+      0,
+      shell("rmdir b.pfm.parts/2-of-3.exr; \"$DRIVERS/render-parallel\" scene.json b.pfm 3 -s 8 && "
+            "cmp a.pfm b.pfm"));
   EXPECT_FALSE(fs::exists(folder_ / "b.pfm.parts"));
   // Files that do not belong to the picture stay.
   const ProgramOutcome noted = shell(
@@ -37,13 +38,12 @@ TEST_F(Drivers, gnu_parallel) {
       "cd ..; \"$DRIVERS/render-parallel\" scene.json b.pfm 3 -s 8 && ls -A b.pfm.parts");
   EXPECT_EQ(noted.exit_code, 0) << noted.err;
   EXPECT_EQ(noted.out, "notes.txt\n");
-  EXPECT_NE(noted.err.find("note: b.pfm.parts is not removed"), std::string::npos) << noted.err;
-  const ProgramOutcome strange =
-      shell(std::string("name=") + strange_name +
-            "; name=\"{} {#} {.}\n$name\"; "
-            "\"$DRIVERS/render-parallel\" scene.json \"$name\" 3 -s 8 && cmp a.pfm \"$name\" && "
-            "! test -e \"$name.parts\"");
-  EXPECT_EQ(strange.exit_code, 0) << strange.err;
+  EXPECT_TRUE(has(noted.err, "note: b.pfm.parts is not removed"));
+  expect_exit(
+      0, shell(std::string("name=") + strange_name +
+               "; name=\"{} {#} {.}\n$name\"; "
+               "\"$DRIVERS/render-parallel\" scene.json \"$name\" 3 -s 8 && cmp a.pfm \"$name\" && "
+               "! test -e \"$name.parts\""));
 }
 
 TEST_F(Drivers, numbers_of_tiles_are_whole_numbers) {
@@ -52,23 +52,20 @@ TEST_F(Drivers, numbers_of_tiles_are_whole_numbers) {
       const ProgramOutcome outcome =
           shell("\"$DRIVERS/render-" + driver + "\" scene.json a.pfm " + count);
       EXPECT_EQ(outcome.exit_code, 2) << driver << count;
-      EXPECT_NE(outcome.err.find("N must be a whole number >= 1"), std::string::npos)
-          << outcome.err;
+      EXPECT_TRUE(has(outcome.err, "N must be a whole number >= 1"));
     }
   EXPECT_EQ(folder_.files(), std::vector<std::string>{"scene.json"});
 }
 
 TEST_F(Drivers, what_a_driver_needs_is_named_if_it_is_missing) {
   // A PATH with what the scripts call until then, and no more.
-  EXPECT_EQ(
-      shell("mkdir bin; for p in bash env; do ln -s \"$(command -v $p)\" bin/; done").exit_code, 0);
+  expect_exit(0, shell("mkdir bin; for p in bash env; do ln -s \"$(command -v $p)\" bin/; done"));
   for (const auto& [driver, program] :
        {std::pair{"render-parallel", "GNU parallel"}, std::pair{"render-slurm", "sbatch"}}) {
     const ProgramOutcome outcome =
         shell("PATH=\"$PWD/bin\" \"$DRIVERS/\"" + std::string(driver) + " scene.json a.pfm 3");
     EXPECT_EQ(outcome.exit_code, 2) << driver;
-    EXPECT_NE(outcome.err.find(std::string(driver) + ": needs"), std::string::npos) << outcome.err;
-    EXPECT_NE(outcome.err.find(program), std::string::npos) << outcome.err;
+    expect_parts(outcome.err, {std::string(driver) + ": needs", program});
     EXPECT_FALSE(std::filesystem::exists(folder_ / "a.pfm.parts")) << driver;
   }
 }
@@ -115,19 +112,15 @@ echo "$job;cluster"
             "\"$DRIVERS/render-slurm\" scene.json 'b%.pfm' 5 -s 8 && cmp a.pfm 'b%.pfm' && "
             "wc -l < jobs && ls -A 'b%.pfm.parts' && cat 'b%.pfm.log'");
   EXPECT_EQ(split.exit_code, 0) << split.err;
-  EXPECT_NE(split.out.find("4\nnotes.txt\nnote: b%.pfm.parts is not removed"), std::string::npos)
-      << split.out;
-  const ProgramOutcome strange =
-      shell(prepare + "name=" + strange_name +
-            "; \"$DRIVERS/render-slurm\" scene.json \"$name\" 3 -s 8 && cmp a.pfm \"$name\" && "
-            "! test -e \"$name.parts\" && test -e \"$name.log\"");
-  EXPECT_EQ(strange.exit_code, 0) << strange.out << strange.err;
+  EXPECT_TRUE(has(split.out, "4\nnotes.txt\nnote: b%.pfm.parts is not removed"));
+  expect_exit(
+      0, shell(prepare + "name=" + strange_name +
+               "; \"$DRIVERS/render-slurm\" scene.json \"$name\" 3 -s 8 && cmp a.pfm \"$name\" && "
+               "! test -e \"$name.parts\" && test -e \"$name.log\""));
   // The third array is refused: the first two are named, for nothing will merge their tiles.
-  const ProgramOutcome refused =
-      shell(prepare + "export LAST_JOB=2; \"$DRIVERS/render-slurm\" scene.json c.pfm 5 -s 8");
-  EXPECT_EQ(refused.exit_code, 1);
-  EXPECT_NE(refused.err.find("no job will merge"), std::string::npos) << refused.err;
-  EXPECT_NE(refused.err.find("scancel 17 18\n"), std::string::npos) << refused.err;
+  expect_exit(
+      1, shell(prepare + "export LAST_JOB=2; \"$DRIVERS/render-slurm\" scene.json c.pfm 5 -s 8"),
+      {"no job will merge", "scancel 17 18\n"});
 }
 
 }  // namespace

@@ -9,45 +9,39 @@
 
 #include "renderer/info/scene_info.h"
 #include "renderer/json/mistakes.h"
-#include "tests/support/program.h"
+#include "tests/support/expect_exit.h"
 #include "tests/support/source_files.h"
 #include "tests/support/temporary_folder.h"
 
 namespace minkray {
 namespace {
 
-/// Runs minkray with arguments for a shell.
-ProgramOutcome run(const std::string& arguments) {
-  return run_shell("\"$MINKRAY\" " + arguments);
-}
-
 std::string scene(const std::string& name) {
   return "'" + (source_folder() / "scenes" / name).string() + "'";
 }
 
 TEST(Cli, results_are_on_stdout_and_done_is_0) {
-  const ProgramOutcome help = run("--help");
+  const ProgramOutcome help = run_minkray("--help");
   EXPECT_EQ(help.exit_code, 0);
-  EXPECT_NE(help.out.find("Exit codes: 0 done"), std::string::npos);
+  EXPECT_TRUE(has(help.out, "Exit codes: 0 done"));
   EXPECT_EQ(help.err, "");
-  const ProgramOutcome schema = run("info --schema");
+  const ProgramOutcome schema = run_minkray("info --schema");
   EXPECT_EQ(schema.exit_code, 0);
   EXPECT_EQ(schema.out, schema_text());
   EXPECT_EQ(schema.err, "");
-  const ProgramOutcome info = run("info " + scene("shape-zoo.json"));
+  const ProgramOutcome info = run_minkray("info " + scene("shape-zoo.json"));
   EXPECT_EQ(info.exit_code, 0);
-  EXPECT_NE(info.out.find("Every shape and every operator"), std::string::npos);
+  EXPECT_TRUE(has(info.out, "Every shape and every operator"));
   EXPECT_EQ(info.err, "");
 }
 
 TEST(Cli, info_counts_what_objects_are_and_what_they_are_made_of) {
-  const std::string text = run("info " + scene("showcase.json")).out;
-  EXPECT_NE(text.find(" 1 box, and 3 inside other shapes\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("  6 sphere inside other shapes\n"), std::string::npos) << text;
+  const std::string text = run_minkray("info " + scene("showcase.json")).out;
+  expect_parts(text, {" 1 box, and 3 inside other shapes\n", "  6 sphere inside other shapes\n"});
 }
 
 TEST(Cli, the_version_names_the_commit) {
-  const ProgramOutcome version = run("--version");
+  const ProgramOutcome version = run_minkray("--version");
   EXPECT_EQ(version.exit_code, 0);
   const bool has_history =
       std::filesystem::exists(source_folder() / ".git") &&
@@ -61,23 +55,21 @@ TEST(Cli, the_version_names_the_commit) {
 }
 
 TEST(Cli, certificates_are_summed_up_on_stderr) {
-  const ProgramOutcome cast =
-      run("cast --certify '" + (source_folder() / "tests/cases/hard-casts.jsonl").string() + "'");
+  const ProgramOutcome cast = run_minkray(
+      "cast --certify '" + (source_folder() / "tests/cases/hard-casts.jsonl").string() + "'");
   EXPECT_EQ(cast.exit_code, 0);
   EXPECT_EQ(cast.err,
             "certificates: 100 hold, 0 fail; 0 results have none (distances, shapes that turn)\n");
   const TemporaryFolder folder;
   const std::string picture = folder / "certified.png";
-  const ProgramOutcome render =
-      run("render " + scene("figure-1.json") + " -r 32x18 -s 1 -q --certify -o '" + picture + "'");
-  EXPECT_EQ(render.exit_code, 0) << render.err;
-  EXPECT_NE(render.err.find("without proof 0\n"), std::string::npos) << render.err;
+  expect_exit(0,
+              run_minkray("render " + scene("figure-1.json") + " -r 32x18 -s 1 -q --certify -o '" +
+                          picture + "'"),
+              {"without proof 0\n"});
 }
 
 TEST(Cli, the_league_is_a_program_of_its_own) {
-  const ProgramOutcome outcome = run("league --only 'no such case'");
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("league: "), std::string::npos) << outcome.err;
+  expect_exit(2, run_minkray("league --only 'no such case'"), {"league: "});
 }
 
 TEST(Cli, wrong_usage_is_2) {
@@ -85,7 +77,7 @@ TEST(Cli, wrong_usage_is_2) {
        {"no-such-verb", "info", "info --no-such-option", "info --shapes --schema",
         "info a.json --schema", "info a.json --markdown", "league --limit 0",
         "league --random few"}) {
-    const ProgramOutcome outcome = run(arguments);
+    const ProgramOutcome outcome = run_minkray(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_EQ(outcome.out, "") << arguments;
     EXPECT_NE(outcome.err, "") << arguments;
@@ -96,21 +88,21 @@ TEST(Cli, bad_input_is_3_and_all_mistakes_are_on_stderr) {
   const TemporaryFolder folder;
   const std::string file = folder.write("bad.json", R"({"version": 3,
             "camera": {"position": [0, 0, 0], "look_at": [0, 0, 0]}, "lights": [], "materials": [], "objects": {}})");
-  const ProgramOutcome bad = run("info '" + file + "'");
+  const ProgramOutcome bad = run_minkray("info '" + file + "'");
   EXPECT_EQ(bad.exit_code, 3);
   EXPECT_EQ(bad.out, "");
   EXPECT_EQ(bad.err, file + ": /version: must be 1 or 2 (got 3)\n" + file +
                          ": /camera/look_at: must not be the camera's position\n" + file +
                          ": /objects: must be a list (got an object)\n");
   std::filesystem::remove(file);
-  EXPECT_EQ(run("info '" + file + "'").exit_code, 3);
-  EXPECT_EQ(run("info '" + folder.path().string() + "'").exit_code, 3);
+  expect_exit(3, run_minkray("info '" + file + "'"));
+  expect_exit(3, run_minkray("info '" + folder.path().string() + "'"));
 }
 
 TEST(Cli, what_cannot_be_written_is_4) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
   const std::string base = "info --schema > /dev/full";
-  EXPECT_EQ(run(base).exit_code, 4);
+  expect_exit(4, run_minkray(base));
 }
 
 TEST(Cli, names_of_files_do_not_steer_the_terminal) {
@@ -123,9 +115,9 @@ TEST(Cli, names_of_files_do_not_steer_the_terminal) {
         "info '--FILE'"}) {
     std::string words = arguments;
     words.replace(words.find("FILE"), 4, folder / name);
-    const ProgramOutcome outcome = run(words);
+    const ProgramOutcome outcome = run_minkray(words);
     EXPECT_NE(outcome.exit_code, 0) << arguments;
-    EXPECT_NE(outcome.err.find("c?[31m?.json"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, "c?[31m?.json"));
     EXPECT_EQ(outcome.err, printable_lines(outcome.err)) << arguments;
   }
 }
@@ -145,13 +137,12 @@ TEST(Cli, queries_cut_off_anywhere_are_told_and_all_others_answered) {
     for (std::size_t length = 1; length < short_query.size(); ++length)
       file << short_query.substr(0, length) << "\n" << short_query << "\n";
   }
-  const ProgramOutcome outcome = run("cast '" + folder / "q.jsonl" + "'");
+  const ProgramOutcome outcome = run_minkray("cast '" + folder / "q.jsonl" + "'");
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_EQ(lines_of(outcome.out), short_query.size() - 1);
   EXPECT_EQ(lines_of(outcome.err), short_query.size() - 1);
   for (std::size_t line = 1; line < 2 * (short_query.size() - 1); line += 2) {
-    EXPECT_NE(outcome.err.find("q.jsonl:" + std::to_string(line) + ": "), std::string::npos)
-        << line;
+    EXPECT_TRUE(has(outcome.err, "q.jsonl:" + std::to_string(line) + ": ")) << line;
   }
 }
 
@@ -163,7 +154,7 @@ TEST(Cli, a_file_of_queries_cut_off_anywhere_is_answered_up_to_there) {
     const std::size_t in_line = length % (short_query.size() + 1);
     if (length % 7 != 0 && in_line > 1 && in_line + 2 < short_query.size()) continue;
     std::ofstream(folder / "q.jsonl", std::ios::binary) << text.substr(0, length);
-    const ProgramOutcome outcome = run("cast '" + folder / "q.jsonl" + "'");
+    const ProgramOutcome outcome = run_minkray("cast '" + folder / "q.jsonl" + "'");
     const bool is_cut = in_line != 0 && in_line != short_query.size();
     const std::size_t answers = (length + 1) / (short_query.size() + 1);
     EXPECT_EQ(outcome.exit_code, is_cut ? 3 : 0) << length;

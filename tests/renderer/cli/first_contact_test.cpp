@@ -11,15 +11,11 @@
 
 #include "core/query/solver_kind.h"
 #include "renderer/cli/verbs.h"
-#include "tests/support/program.h"
+#include "tests/support/expect_exit.h"
 #include "tests/support/source_files.h"
 
 namespace minkray {
 namespace {
-
-std::string in(const TemporaryFolder& folder, const std::string& command) {
-  return "cd '" + folder / "." + "' && " + command;
-}
 
 TEST(FirstContact, the_program_alone_shows_three_commands_to_try) {
   const ProgramOutcome page = run_shell("$MINKRAY");
@@ -33,17 +29,14 @@ TEST(FirstContact, the_program_alone_shows_three_commands_to_try) {
 
 TEST(FirstContact, a_scene_is_found_by_its_name_and_its_picture_goes_to_that_name) {
   const TemporaryFolder folder;
-  const ProgramOutcome named = run_shell(in(folder, "$MINKRAY render shape-zoo -r 32x18 -s 1"));
-  EXPECT_EQ(named.exit_code, 0) << named.err;
-  EXPECT_NE(named.err.find("the picture goes to shape-zoo.png\n"), std::string::npos) << named.err;
+  expect_exit(0, run_minkray(folder, "render shape-zoo -r 32x18 -s 1"),
+              {"the picture goes to shape-zoo.png\n"});
   EXPECT_EQ(folder.files(), std::vector<std::string>{"shape-zoo.png"});
   const std::string picture = text_of_file(folder / "shape-zoo.png");
   const std::string by_path = "'" + (source_folder() / "scenes/shape-zoo.json").string() + "'";
-  EXPECT_EQ(
-      run_shell(in(folder, "$MINKRAY render " + by_path + " -r 32x18 -s 1 -q -o b.png")).exit_code,
-      0);
+  expect_exit(0, run_minkray(folder, "render " + by_path + " -r 32x18 -s 1 -q -o b.png"));
   EXPECT_EQ(text_of_file(folder / "b.png"), picture);
-  EXPECT_EQ(run_shell(in(folder, "$MINKRAY heatmap shape-zoo -r 32x18 -q")).exit_code, 0);
+  expect_exit(0, run_minkray(folder, "heatmap shape-zoo -r 32x18 -q"));
   EXPECT_EQ(folder.files(),
             (std::vector<std::string>{"b.png", "shape-zoo-heatmap.png", "shape-zoo.png"}));
 }
@@ -52,23 +45,20 @@ TEST(FirstContact, no_picture_is_promised_where_none_will_be_made) {
   for (const std::string arguments :
        {"render shape-zoo -r 10", "heatmap shape-zoo --channel cost",
         "render shape-zoo --crop 0,0,9999,9", "render no/such.json"}) {
-    const ProgramOutcome outcome = run_shell("$MINKRAY " + arguments);
+    const ProgramOutcome outcome = run_minkray(arguments);
     EXPECT_NE(outcome.exit_code, 0) << arguments;
-    EXPECT_EQ(outcome.err.find("the picture goes to"), std::string::npos) << outcome.err;
+    EXPECT_FALSE(has(outcome.err, "the picture goes to"));
   }
 }
 
 TEST(FirstContact, an_unknown_name_is_told_with_the_names_there_are) {
-  const ProgramOutcome outcome = run_shell("$MINKRAY render showcsae -o /dev/null");
-  EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_NE(outcome.err.find("showcsae: must be"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("shape-zoo, showcase"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("did you mean `showcase`?"), std::string::npos) << outcome.err;
+  expect_exit(3, run_minkray("render showcsae -o /dev/null"),
+              {"showcsae: must be", "shape-zoo, showcase", "did you mean `showcase`?"});
 }
 
 /// Message of the program for a command line that it rejects.
 std::string refusal(const std::string& words, int exit_code = 2) {
-  const ProgramOutcome outcome = run_shell("$MINKRAY " + words);
+  const ProgramOutcome outcome = run_minkray(words);
   EXPECT_EQ(outcome.exit_code, exit_code) << words << ": " << outcome.err;
   EXPECT_EQ(outcome.out, "") << words;
   return outcome.err;
@@ -100,8 +90,7 @@ TEST(FirstContact, words_that_are_not_known_are_told_with_what_to_write) {
       {"render shape-zoo --integrator pathtracing", "did you mean `path`?"},
       {"trace shape-zoo --pixl 3,3", "did you mean `--pixel`?"},
       {"man rendr", "render"}};
-  for (const auto& [words, expected] : typed)
-    EXPECT_NE(refusal(words).find(expected), std::string::npos) << words << ": " << refusal(words);
+  for (const auto& [words, expected] : typed) EXPECT_TRUE(has(refusal(words), expected)) << words;
 }
 
 TEST(FirstContact, files_and_words_of_other_programs_are_told_with_ours) {
@@ -134,36 +123,34 @@ TEST(FirstContact, files_and_words_of_other_programs_are_told_with_ours) {
       {"a.stl", "solid a\n", "is a mesh (STL)"}};
   for (const auto& [name, text, expected] : files) {
     const std::string told = refusal("info '" + folder.write(name, text) + "'", 3);
-    EXPECT_NE(told.find(expected), std::string::npos) << text << "\n" << told;
+    EXPECT_TRUE(has(told, expected)) << text;
   }
   // The picture's own name would be that of its output.
-  EXPECT_NE(
-      refusal("render '" + folder.write("a.png", "\x89PNG\r\n") + "'", 3).find("is a picture"),
-      std::string::npos);
+  EXPECT_TRUE(
+      has(refusal("render '" + folder.write("a.png", "\x89PNG\r\n") + "'", 3), "is a picture"));
   const std::string robot =
       folder.write("r.xml", "<mujoco><worldbody><geom size=\"1\"/></worldbody></mujoco>");
-  EXPECT_NE(refusal("info '" + robot + "' --keyframe squat", 3)
-                .find("--keyframe: no keyframe named squat; the file has no keyframes"),
-            std::string::npos);
+  EXPECT_TRUE(has(refusal("info '" + robot + "' --keyframe squat", 3),
+                  "--keyframe: no keyframe named squat; the file has no keyframes"));
 }
 
 TEST(FirstContact, help_is_a_command_too) {
-  const std::string all = run_shell("$MINKRAY --help").out;
-  EXPECT_NE(all.find("Subcommands:"), std::string::npos);
-  EXPECT_EQ(run_shell("$MINKRAY help").out, all);
-  EXPECT_EQ(run_shell("$MINKRAY help help").out, all);
+  const std::string all = run_minkray("--help").out;
+  EXPECT_TRUE(has(all, "Subcommands:"));
+  EXPECT_EQ(run_minkray("help").out, all);
+  EXPECT_EQ(run_minkray("help help").out, all);
   for (const VerbRow& row : minkray::verbs) {
     const std::string name(row.name);
-    const ProgramOutcome help = run_shell("$MINKRAY help " + name);
+    const ProgramOutcome help = run_minkray("help " + name);
     EXPECT_EQ(help.exit_code, 0) << name;
-    EXPECT_EQ(help.out, run_shell("$MINKRAY " + name + " --help").out) << name;
+    EXPECT_EQ(help.out, run_minkray(name + " --help").out) << name;
   }
 }
 
 TEST(FirstContact, help_has_lines_of_80_columns_two_examples_and_no_task_of_the_sources) {
-  std::vector<std::string> pages = {run_shell("$MINKRAY --help").out, run_shell("$MINKRAY").out};
+  std::vector<std::string> pages = {run_minkray("--help").out, run_shell("$MINKRAY").out};
   for (const VerbRow& row : minkray::verbs) {
-    pages.push_back(run_shell("$MINKRAY " + std::string(row.name) + " --help").out);
+    pages.push_back(run_minkray(std::string(row.name) + " --help").out);
     std::size_t examples = 0;
     for (std::size_t at = 0;
          (at = pages.back().find("\n  minkray " + std::string(row.name), at)) != std::string::npos;
@@ -172,7 +159,7 @@ TEST(FirstContact, help_has_lines_of_80_columns_two_examples_and_no_task_of_the_
     EXPECT_EQ(examples, 2u) << row.name;
   }
   for (const std::string& page : pages) {
-    EXPECT_EQ(page.find("./run"), std::string::npos) << page;
+    EXPECT_FALSE(has(page, "./run"));
     std::istringstream lines(page);
     for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
   }
@@ -181,7 +168,7 @@ TEST(FirstContact, help_has_lines_of_80_columns_two_examples_and_no_task_of_the_
 /// The options of the examples are there.
 TEST(FirstContact, examples_use_options_that_there_are) {
   for (const VerbRow& row : minkray::verbs) {
-    const std::string help = run_shell("$MINKRAY " + std::string(row.name) + " --help").out;
+    const std::string help = run_minkray(std::string(row.name) + " --help").out;
     for (const std::string_view example : row.examples) {
       const std::string text(example);
       const std::regex option(" (--?[a-z][a-z0-9-]*)");
@@ -202,19 +189,17 @@ TEST(FirstContact, a_joint_beyond_its_limits_is_told_on_stderr) {
       velocity="1"/></joint></robot>)");
   const std::string render =
       "$MINKRAY render '" + robot + "' -r 8x6 -s 1 -o '" + folder / "a.png" + "' --joint j=";
-  EXPECT_NE(run_shell(render + "9").err.find("limit of the joint \"j\": at 9, outside -1 to 1"),
-            std::string::npos);
-  EXPECT_EQ(run_shell(render + "0.5").err.find("limit"), std::string::npos);
+  EXPECT_TRUE(has(run_shell(render + "9").err, "limit of the joint \"j\": at 9, outside -1 to 1"));
+  EXPECT_FALSE(has(run_shell(render + "0.5").err, "limit"));
 }
 
 TEST(FirstContact, each_verb_that_takes_a_solver_says_which_there_are) {
   for (const std::string verb : {"render", "heatmap", "compare", "inspect", "cast", "trace"}) {
     // Lines are broken where they are too long.
     const std::string help =
-        std::regex_replace(run_shell("$MINKRAY " + verb + " --help").out, std::regex("\\s+"), " ");
+        std::regex_replace(run_minkray(verb + " --help").out, std::regex("\\s+"), " ");
     for (const SolverDescription& solver : solver_descriptions)
-      EXPECT_NE(help.find(std::string(solver.name) + ": " + std::string(solver.doc)),
-                std::string::npos)
+      EXPECT_TRUE(has(help, std::string(solver.name) + ": " + std::string(solver.doc)))
           << verb << " " << solver.name;
   }
 }
@@ -222,36 +207,33 @@ TEST(FirstContact, each_verb_that_takes_a_solver_says_which_there_are) {
 TEST(FirstContact, without_an_output_nobody_elses_file_is_replaced) {
   const TemporaryFolder folder;
   write_ball_scene(folder / "ball.json");
-  const std::string render = in(folder, "$MINKRAY render ball.json -q -r 16x9 -s 1");
-  EXPECT_EQ(run_shell(render).exit_code, 0);
-  EXPECT_EQ(run_shell(render).exit_code, 0);  // Minkray's own picture is
+  const std::string render = "$MINKRAY render ball.json -q -r 16x9 -s 1";
+  expect_exit(0, run_in(folder, render));
+  expect_exit(0, run_in(folder, render));  // Minkray's own picture is
   std::ofstream(folder / "ball.png") << "a photograph";
-  const ProgramOutcome refused = run_shell(render);
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.err.find("ball.png exists and was not written by Minkray"), std::string::npos)
-      << refused.err;
+  expect_exit(2, run_in(folder, render), {"ball.png exists and was not written by Minkray"});
   EXPECT_EQ(text_of_file(folder / "ball.png"), "a photograph");
-  EXPECT_EQ(run_shell(in(folder, "$MINKRAY render ball.json --tile 1/2 -q")).exit_code, 2);
+  expect_exit(2, run_minkray(folder, "render ball.json --tile 1/2 -q"));
 }
 
 TEST(FirstContact, a_preview_is_drawn_with_half_blocks_where_there_is_no_terminal) {
   const TemporaryFolder folder;
   write_ball_scene(folder / "ball.json");
-  const std::string render = in(folder, "$MINKRAY render ball.json -q -r 160x90 -s 1 --preview");
-  const ProgramOutcome blocks = run_shell(render);
+  const std::string render = "$MINKRAY render ball.json -q -r 160x90 -s 1 --preview";
+  const ProgramOutcome blocks = run_in(folder, render);
   EXPECT_EQ(blocks.exit_code, 0) << blocks.err;
   std::size_t halves = 0;
   for (std::size_t at = 0; (at = blocks.out.find("\xe2\x96\x80", at)) != std::string::npos; ++at)
     ++halves;
   EXPECT_EQ(halves, 80u * 23u);  // 80 columns, 45 rows of pixels
-  EXPECT_TRUE(run_shell(render + "=kitty").out.starts_with("\x1b_Gf=100"));
-  EXPECT_TRUE(run_shell(render + "=sixel").out.starts_with("\x1bPq"));
-  EXPECT_EQ(run_shell(render + "=hologram").exit_code, 2);
+  EXPECT_TRUE(run_in(folder, render + "=kitty").out.starts_with("\x1b_Gf=100"));
+  EXPECT_TRUE(run_in(folder, render + "=sixel").out.starts_with("\x1bPq"));
+  expect_exit(2, run_in(folder, render + "=hologram"));
 }
 
 /// The verbs that --help lists.
 std::vector<std::string> names_of_verbs() {
-  const std::string help = run_shell("$MINKRAY --help").out;
+  const std::string help = run_minkray("--help").out;
   std::vector<std::string> names;
   std::istringstream lines(help.substr(help.find("Subcommands:")));
   std::string line;
@@ -263,7 +245,7 @@ std::vector<std::string> names_of_verbs() {
 
 /// The long options that a verb's --help lists, each where its entry begins.
 std::set<std::string> options_in_help(const std::string& verb) {
-  const std::string help = run_shell("$MINKRAY " + verb + " --help").out;
+  const std::string help = run_minkray(verb + " --help").out;
   const std::regex entry("\n  (-[a-z0-9,-]+)"), option("--[a-z][a-z0-9-]*");
   std::set<std::string> options;
   for (std::sregex_iterator match(help.begin(), help.end(), entry), end; match != end; ++match) {
@@ -277,9 +259,9 @@ std::set<std::string> options_in_help(const std::string& verb) {
 TEST(ManPages, every_verb_has_one_with_just_the_options_of_its_help) {
   const std::vector<std::string> names = names_of_verbs();
   ASSERT_GT(names.size(), 10u);
-  const std::string all = run_shell("$MINKRAY man").out;
+  const std::string all = run_minkray("man").out;
   for (const std::string& verb : names) {
-    std::string page = run_shell("$MINKRAY man " + verb).out;
+    std::string page = run_minkray("man " + verb).out;
     page = std::regex_replace(page, std::regex("\\\\-"), "-");
     EXPECT_TRUE(page.starts_with(".TH \"minkray-" + verb + "\"")) << page.substr(0, 80);
     std::set<std::string> options;
@@ -290,16 +272,15 @@ TEST(ManPages, every_verb_has_one_with_just_the_options_of_its_help) {
         options.insert(name->str());
     }
     EXPECT_EQ(options, options_in_help(verb)) << verb;
-    EXPECT_NE(all.find("minkray\\-" + std::regex_replace(verb, std::regex("-"), "\\-") + " (1)"),
-              std::string::npos)
+    EXPECT_TRUE(has(all, "minkray\\-" + std::regex_replace(verb, std::regex("-"), "\\-") + " (1)"))
         << verb;
   }
-  EXPECT_EQ(run_shell("$MINKRAY man no-such-verb").exit_code, 2);
+  expect_exit(2, run_minkray("man no-such-verb"));
 }
 
 TEST(Completion, bash_offers_the_options_of_each_verbs_help) {
   const TemporaryFolder folder;
-  ASSERT_EQ(run_shell("$MINKRAY completion bash > '" + folder / "minkray" + "'").exit_code, 0);
+  ASSERT_EQ(run_minkray("completion bash > '" + folder / "minkray" + "'").exit_code, 0);
   for (const std::string& verb : names_of_verbs()) {
     const ProgramOutcome offered =
         run_shell("bash -c 'source \"" + folder / "minkray" + "\"; COMP_WORDS=(minkray " + verb +
@@ -313,7 +294,7 @@ TEST(Completion, bash_offers_the_options_of_each_verbs_help) {
 
 TEST(Completion, bash_offers_verbs_and_the_values_of_an_option) {
   const TemporaryFolder folder;
-  ASSERT_EQ(run_shell("$MINKRAY completion bash > '" + folder / "minkray" + "'").exit_code, 0);
+  ASSERT_EQ(run_minkray("completion bash > '" + folder / "minkray" + "'").exit_code, 0);
   const auto offered = [&](const std::string& words, int at) {
     return run_shell("bash -c 'source \"" + folder / "minkray" + "\"; COMP_WORDS=(" + words +
                      "); COMP_CWORD=" + std::to_string(at) +
@@ -327,11 +308,10 @@ TEST(Completion, bash_offers_verbs_and_the_values_of_an_option) {
 
 TEST(Completion, every_shell_knows_every_long_option) {
   for (const std::string shell : {"bash", "zsh", "fish"}) {
-    const std::string text = run_shell("$MINKRAY completion " + shell).out;
+    const std::string text = run_minkray("completion " + shell).out;
     for (const std::string& verb : names_of_verbs())
       for (const std::string& option : options_in_help(verb))
-        EXPECT_NE(text.find(shell == "fish" ? " -l " + option.substr(2) : option),
-                  std::string::npos)
+        EXPECT_TRUE(has(text, shell == "fish" ? " -l " + option.substr(2) : option))
             << shell << " " << verb << " " << option;
     if (has_program(shell)) {
       const TemporaryFolder folder;

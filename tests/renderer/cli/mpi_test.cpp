@@ -16,6 +16,7 @@
 
 #include "renderer/share/ranks.h"
 #include "tests/renderer/cli/drivers.h"
+#include "tests/support/expect_exit.h"
 
 namespace minkray {
 namespace {
@@ -68,9 +69,8 @@ class Mpi : public Drivers {
 TEST_F(Mpi, four_ranks_make_the_same_picture_as_one) {
   const ProgramOutcome made = shell(render);
   expect_same_picture(made);
-  for (const char* rank : {"rank 0 of 4 on ", "rank 3 of 4 on "})
-    EXPECT_NE(made.err.find(rank), std::string::npos) << made.err;
-  EXPECT_NE(made.err.find(": 1 thread"), std::string::npos) << made.err;
+  expect_parts(made.err, {"rank 0 of 4 on ", "rank 3 of 4 on "});
+  EXPECT_TRUE(has(made.err, ": 1 thread"));
 }
 
 // A rank is killed when some tiles are there, and a rank of the next job as well. The files'
@@ -124,12 +124,8 @@ TEST_F(Mpi, files_of_others_beside_the_tiles_stay) {
                            ".000002-of-000009.exr.123.0123abcd.tmp",
                            ".000002-of-000009.exr.checkpoint.1.0123abcd.tmp"})
     std::ofstream(parts + name) << "\x76\x2f\x31\x01";
-  const ProgramOutcome made = shell(render);
-  EXPECT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_NE(
-      made.err.find("note: a.pfm.parts is not removed: it contains more than this picture's tiles"),
-      std::string::npos)
-      << made.err;
+  expect_exit(0, shell(render),
+              {"note: a.pfm.parts is not removed: it contains more than this picture's tiles"});
   EXPECT_EQ(tiles().size(), 1u);
   EXPECT_EQ(std::distance(fs::directory_iterator(parts), fs::directory_iterator()), 2);
   EXPECT_TRUE(fs::exists(parts + "notes.txt"));
@@ -151,24 +147,20 @@ TEST_F(Mpi, ranks_tell_their_threads_and_warn_where_they_are_pinned_to_one_core)
   const ProgramOutcome pinned = run("taskset -c " + std::to_string(core));
   EXPECT_EQ(pinned.exit_code, 0) << pinned.err;
   for (const std::string rank : {"rank 0 of 2", "rank 1 of 2"}) {
-    EXPECT_NE(pinned.err.find("warning: " + rank + " is pinned to one of "), std::string::npos)
-        << pinned.err;
-    EXPECT_NE(pinned.err.find(rank + " on "), std::string::npos) << pinned.err;
+    expect_parts(pinned.err, {"warning: " + rank + " is pinned to one of ", rank + " on "});
   }
-  EXPECT_NE(pinned.err.find(": 3 threads\n"), std::string::npos) << pinned.err;
+  EXPECT_TRUE(has(pinned.err, ": 3 threads\n"));
   if (CPU_COUNT(&cores) > 1) {
-    EXPECT_EQ(run("").err.find("is pinned"), std::string::npos);
+    EXPECT_FALSE(has(run("").err, "is pinned"));
   }
 }
 
 // Only rank 0 writes the picture: the others are ended with it, and leave nothing behind.
 TEST_F(Mpi, mistakes_end_the_job_with_their_code) {
-  const ProgramOutcome outcome =
-      shell("mpirun --oversubscribe -n 2 \"$MINKRAY\" render scene.json -o none/a.pfm");
-  EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
-  EXPECT_NE(outcome.err.find("cannot write none/a.pfm: "), std::string::npos) << outcome.err;
+  expect_exit(4, shell("mpirun --oversubscribe -n 2 \"$MINKRAY\" render scene.json -o none/a.pfm"),
+              {"cannot write none/a.pfm: "});
   EXPECT_EQ(folder_.files(), std::vector<std::string>{"scene.json"});
-  EXPECT_EQ(shell("\"$MINKRAY\" render scene.json -o a.pfm --tiles 4").exit_code, 2);
+  expect_exit(2, minkray("render scene.json -o a.pfm --tiles 4"));
 }
 
 }  // namespace

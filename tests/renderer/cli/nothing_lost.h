@@ -20,9 +20,9 @@ class NothingLost : public ::testing::Test {
   NothingLost() { write_ball_scene(folder_ / "scene.json"); }
 
   std::string quoted(const std::string& name) const { return "'" + (folder_ / name) + "'"; }
-  ProgramOutcome shell(const std::string& command) const {
-    return run_shell("cd '" + (folder_ / ".") + "' || exit 99\n" + command);
-  }
+  ProgramOutcome shell(const std::string& command) const { return run_in(folder_, command); }
+
+  ProgramOutcome minkray(const std::string& words) const { return shell("\"$MINKRAY\" " + words); }
 
   /// True if it becomes true within a minute; tested a thousand times per second.
   template <class Condition>

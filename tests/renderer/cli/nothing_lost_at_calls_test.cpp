@@ -11,6 +11,7 @@
 
 #include "renderer/io/exr.h"
 #include "tests/renderer/cli/nothing_lost.h"
+#include "tests/support/expect_exit.h"
 #include "tests/support/source_files.h"
 
 namespace minkray {
@@ -98,7 +99,7 @@ TEST_F(NothingLost, killed_before_any_call_the_old_file_is_there_or_the_new_one)
       std::vector<std::string> files = without_temporary_files(folder_.files());
       std::erase(files, "calls");
       EXPECT_EQ(files, before) << command.line() << ", call " << at;
-      EXPECT_EQ(shell("rm -f calls .[!.]*").exit_code, 0);
+      expect_exit(0, shell("rm -f calls .[!.]*"));
     }
     EXPECT_GT(old_ones, 5) << command.line();  // the faults met the writing of the file
     EXPECT_GT(new_ones, 1) << command.line();  // and what comes after it
@@ -133,8 +134,8 @@ TEST_F(NothingLost, whichever_call_fails_the_old_file_is_there_and_the_user_is_t
         ++told;
         EXPECT_EQ(outcome.exit_code, 4) << command.line() << ": " << failed;
         EXPECT_EQ(text_of_file(target), old_content) << command.line() << ": " << failed;
-        EXPECT_NE(outcome.err.find(command.output + ": " + std::strerror(error)), std::string::npos)
-            << command.line() << ": " << failed << ": " << outcome.err;
+        EXPECT_TRUE(has(outcome.err, command.output + ": " + std::strerror(error)))
+            << command.line() << ": " << failed;
       }
       if (failed.empty()) break;
     }
@@ -206,10 +207,9 @@ TEST_F(NothingLost, killed_before_any_call_frames_are_never_mixed) {
     if (resumed.exit_code != 0) {
       ++refused;
       EXPECT_EQ(resumed.exit_code, 3) << at;
-      EXPECT_NE(resumed.err.find("f#.pfm.frames: is the record of other frames: "
-                                 "minkray.samples is 1, not 2"),
-                std::string::npos)
-          << resumed.err;
+      EXPECT_TRUE(has(resumed.err,
+                      "f#.pfm.frames: is the record of other frames: "
+                      "minkray.samples is 1, not 2"));
     }
     EXPECT_TRUE(are(resumed.exit_code == 0 ? "new" : "old")) << at;
   }

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "tests/renderer/cli/nothing_lost.h"
+#include "tests/support/expect_exit.h"
 #include "tests/support/source_files.h"
 
 namespace minkray {
@@ -55,7 +56,7 @@ TEST_F(NothingLost, killed_at_any_moment_the_old_picture_is_there_or_the_new_one
       EXPECT_NE(status, 0) << i;
     } else {
       ++new_ones;  // whole: what is in it can be read again
-      EXPECT_EQ(shell("\"$MINKRAY\" merge a.exr -o b.pfm").exit_code, 0) << i;
+      EXPECT_EQ(minkray("merge a.exr -o b.pfm").exit_code, 0) << i;
       fs::remove(folder_ / "b.pfm");
     }
     // SIGKILL leaves no time to tidy up.
@@ -117,14 +118,11 @@ TEST_F(NothingLost, a_checkpoint_of_another_picture_is_refused) {
   EXPECT_TRUE(wait_until([&] { return fs::exists(folder_ / "a.png.checkpoint"); }));
   ::kill(child, SIGTERM);
   EXPECT_TRUE(WIFSIGNALED(wait_for(child)));
-  const ProgramOutcome other = shell("\"$MINKRAY\" render scene.json -o a.png -s 2 --resume");
-  EXPECT_EQ(other.exit_code, 3);
-  EXPECT_NE(other.err.find("a.png.checkpoint: is the checkpoint of another picture: "
-                           "minkray.samples is 5000, not 2"),
-            std::string::npos)
-      << other.err;
+  expect_exit(3, minkray("render scene.json -o a.png -s 2 --resume"),
+              {"a.png.checkpoint: is the checkpoint of another picture: "
+               "minkray.samples is 5000, not 2"});
   EXPECT_TRUE(fs::exists(folder_ / "a.png.checkpoint"));
-  EXPECT_EQ(shell("\"$MINKRAY\" render scene.json -o a.png -s 2").exit_code, 0);
+  expect_exit(0, minkray("render scene.json -o a.png -s 2"));
   EXPECT_FALSE(fs::exists(folder_ / "a.png.checkpoint"));
 }
 
@@ -133,14 +131,13 @@ TEST_F(NothingLost, a_full_disk_costs_the_new_picture_and_not_the_old_one) {
     const ProgramOutcome full =
         shell("ln -s /dev/full full.png; \"$MINKRAY\" render scene.json -o full.png -s 1");
     EXPECT_EQ(full.exit_code, 4);
-    EXPECT_NE(full.err.find("full.png: No space left on device"), std::string::npos) << full.err;
+    EXPECT_TRUE(has(full.err, "full.png: No space left on device"));
     fs::remove(folder_ / "full.png");
   }
   // A limit of file sizes: some blocks can be written, and then no more.
-  const ProgramOutcome limited =
-      shell("echo old > a.pfm; ulimit -f 8; \"$MINKRAY\" render scene.json -o a.pfm -s 1");
-  EXPECT_EQ(limited.exit_code, 4);
-  EXPECT_NE(limited.err.find("a.pfm: File too large"), std::string::npos) << limited.err;
+  expect_exit(4,
+              shell("echo old > a.pfm; ulimit -f 8; \"$MINKRAY\" render scene.json -o a.pfm -s 1"),
+              {"a.pfm: File too large"});
   EXPECT_EQ(text_of_file(folder_ / "a.pfm"), "old\n");
   EXPECT_EQ(folder_.files(), (std::vector<std::string>{"a.pfm", "scene.json"}));
 }
@@ -151,9 +148,9 @@ TEST_F(NothingLost, a_full_file_system_as_well) {
   const ProgramOutcome full = shell(
       "echo old > small/a.pfm; \"$MINKRAY\" render scene.json -o small/a.pfm -s 1; code=$?; "
       "cat small/a.pfm; ls -A small; exit $code");
-  EXPECT_EQ(shell("umount small").exit_code, 0);
+  expect_exit(0, shell("umount small"));
   EXPECT_EQ(full.exit_code, 4);
-  EXPECT_NE(full.err.find("small/a.pfm: No space left on device"), std::string::npos) << full.err;
+  EXPECT_TRUE(has(full.err, "small/a.pfm: No space left on device"));
   EXPECT_EQ(full.out, "old\na.pfm\n");
 }
 
@@ -167,12 +164,9 @@ TEST_F(NothingLost, a_folder_that_cannot_be_written_is_told_before_the_render) {
   } else {
     ::chmod((folder_ / "locked").c_str(), 0500);
   }
-  const ProgramOutcome refused =
-      shell("\"$MINKRAY\" render scene.json -o locked/a.png -s 16777216");
-  EXPECT_EQ(refused.exit_code, 4);
-  EXPECT_NE(refused.err.find("locked/a.png: "), std::string::npos) << refused.err;
+  expect_exit(4, minkray("render scene.json -o locked/a.png -s 16777216"), {"locked/a.png: "});
   if (is_mount) {
-    EXPECT_EQ(shell("umount locked").exit_code, 0);
+    expect_exit(0, shell("umount locked"));
   }
   ::chmod((folder_ / "locked").c_str(), 0700);
 }

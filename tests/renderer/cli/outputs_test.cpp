@@ -10,6 +10,7 @@
 
 #include "renderer/cli/verbs.h"
 #include "tests/renderer/cli/nothing_lost.h"
+#include "tests/support/expect_exit.h"
 #include "tests/support/source_files.h"
 
 namespace minkray {
@@ -104,7 +105,7 @@ std::vector<Command> writing_commands() {
 
 /// The options of a command's help whose value is of a kind, "FILE" or "OUTPUT", by long name.
 std::set<std::string> options_taking(const std::string& verb, const std::string& kind) {
-  const std::string help = run_shell("$MINKRAY " + verb + " --help").out;
+  const std::string help = run_minkray(verb + " --help").out;
   const std::regex entry("\n  (-[a-zA-Z0-9,-]+|[a-z]+) " + kind + "\\b");
   std::set<std::string> options;
   for (std::sregex_iterator match(help.begin(), help.end(), entry), end; match != end; ++match) {
@@ -180,11 +181,10 @@ class Outputs : public NothingLost {
           std::string(reinterpret_cast<const char*>(ray), sizeof ray);
     folder_.write("rays.npy", npy);
     write_ball_scene(folder_ / "ball.json");
-    const ProgramOutcome made = shell(R"(set -e
+    expect_exit(0, shell(R"(set -e
       "$MINKRAY" render ball.json -s 1 -r 8x6 -q -o sky.png -o paint.png --checkpoint 0
       "$MINKRAY" render ball.json -s 1 -r 8x6 -q --tile 1/1 -o part.exr --checkpoint 0
-      mkdir sub; ln -s . here)");
-    EXPECT_EQ(made.exit_code, 0) << made.err;
+      mkdir sub; ln -s . here)"));
     folder_.write("scene.json", plain_scene);
     remember();
   }
@@ -209,7 +209,7 @@ class Outputs : public NothingLost {
 
   void expect_refused(const std::string& words, const std::string& option,
                       const std::string& name) {
-    const ProgramOutcome outcome = shell("\"$MINKRAY\" " + words);
+    const ProgramOutcome outcome = minkray(words);
     EXPECT_EQ(outcome.exit_code, 2) << words << "\n" << outcome.err;
     EXPECT_EQ(outcome.err.find(option + ": " + name + " is read or written already, as "), 0u)
         << words << "\n"
@@ -272,7 +272,7 @@ TEST_F(Outputs, every_command_runs_where_no_output_is_an_input) {
       for (const auto& [option, writing] : command.outputs) {
         const std::string words =
             command.verb + " " + one.words + writing.words + output(option, writing.file);
-        const ProgramOutcome outcome = shell("\"$MINKRAY\" " + words);
+        const ProgramOutcome outcome = minkray(words);
         EXPECT_EQ(outcome.exit_code, 0) << words << "\n" << outcome.err;
       }
     }
@@ -348,11 +348,10 @@ TEST_F(Outputs, none_is_written_twice) {
       for (const auto& [other, its_writing] : command.outputs) {
         if (option >= other) continue;
         for (const char* before : {"", "./", "sub/../", "here/"}) {
-          const ProgramOutcome outcome = shell("\"$MINKRAY\" " + words + output(option, "x.json") +
-                                               output(other, before + std::string("x.json")));
+          const ProgramOutcome outcome = minkray(words + output(option, "x.json") +
+                                                 output(other, before + std::string("x.json")));
           EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
-          EXPECT_NE(outcome.err.find("is read or written already, as"), std::string::npos)
-              << words << outcome.err;
+          EXPECT_TRUE(has(outcome.err, "is read or written already, as")) << words;
         }
       }
   }
@@ -381,13 +380,8 @@ TEST_F(Outputs, frames_checkpoints_and_records_are_outputs_too) {
 }
 
 TEST_F(Outputs, devices_and_pipes_may_be_named_twice) {
-  EXPECT_EQ(shell("\"$MINKRAY\" scan ball.json --pattern spinning:2x4 -q -o o.ply --ids /dev/null")
-                .exit_code,
-            0);
-  EXPECT_EQ(
-      shell("\"$MINKRAY\" clearance r.urdf --path rows.csv --steps /dev/null --sweep /dev/null")
-          .exit_code,
-      0);
+  expect_exit(0, minkray("scan ball.json --pattern spinning:2x4 -q -o o.ply --ids /dev/null"));
+  expect_exit(0, minkray("clearance r.urdf --path rows.csv --steps /dev/null --sweep /dev/null"));
 }
 
 }  // namespace

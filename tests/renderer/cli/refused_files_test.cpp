@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "tests/renderer/cli/nothing_lost.h"
+#include "tests/support/expect_exit.h"
 #include "tests/support/source_files.h"
 
 namespace minkray {
@@ -47,14 +48,14 @@ TEST_F(NothingLost, what_is_no_file_is_an_error_at_once) {
     // More is not taken for a file that is refused.
     const ProgramOutcome outcome = shell(limited_memory() + "timeout 10 \"$MINKRAY\" " + arguments);
     EXPECT_EQ(outcome.exit_code, 3) << arguments << outcome.err;
-    EXPECT_NE(outcome.err.find(message), std::string::npos) << arguments << ": " << outcome.err;
+    EXPECT_TRUE(has(outcome.err, message)) << arguments;
   }
 }
 
 // Files of 2 GB, without as much memory: their first bytes show that they are unusable.
 TEST_F(NothingLost, a_huge_file_is_looked_at_before_it_is_read) {
   constexpr std::uintmax_t huge = std::uintmax_t{2} << 30;  // holes: they take no disk
-  ASSERT_EQ(shell("\"$MINKRAY\" render scene.json -s 1 -o a.exr").exit_code, 0);
+  ASSERT_EQ(minkray("render scene.json -s 1 -o a.exr").exit_code, 0);
   std::ofstream(folder_ / "zeros.exr") << "";
   fs::copy_file(folder_ / "a.exr", folder_ / "long.exr");
   // A header that promises a large picture, and as large a file.
@@ -75,38 +76,30 @@ TEST_F(NothingLost, a_huge_file_is_looked_at_before_it_is_read) {
   };
   if (!limited_memory().empty()) cases.emplace_back("large.exr", ": not enough memory to read it");
   for (const auto& [name, message] : cases) {
-    const ProgramOutcome merged =
-        shell(limited_memory() + "timeout 10 \"$MINKRAY\" merge " + name + " -o a.png");
-    EXPECT_EQ(merged.exit_code, 3) << merged.err;
-    EXPECT_NE(merged.err.find(name + message), std::string::npos) << merged.err;
+    expect_exit(3, shell(limited_memory() + "timeout 10 \"$MINKRAY\" merge " + name + " -o a.png"),
+                {name + message});
     fs::rename(folder_ / name, folder_ / "b.png.checkpoint");
-    const ProgramOutcome resumed = shell(
-        limited_memory() + "timeout 10 \"$MINKRAY\" render scene.json -s 1 -o b.png --resume");
-    EXPECT_EQ(resumed.exit_code, 3) << resumed.err;
-    EXPECT_NE(resumed.err.find("b.png.checkpoint" + message), std::string::npos) << resumed.err;
+    expect_exit(3,
+                shell(limited_memory() +
+                      "timeout 10 \"$MINKRAY\" render scene.json -s 1 -o b.png --resume"),
+                {"b.png.checkpoint" + message});
   }
 }
 
 // A pipe in the checkpoint's place is not waited for either when the picture is written.
 TEST_F(NothingLost, what_is_no_checkpoint_stays) {
   ASSERT_EQ(::mkfifo((folder_ / "a.png.checkpoint").c_str(), 0600), 0);
-  const ProgramOutcome done =
-      shell("timeout 10 \"$MINKRAY\" render scene.json -s 1 -o a.png --checkpoint 0");
-  EXPECT_EQ(done.exit_code, 0) << done.err;
+  expect_exit(0, shell("timeout 10 \"$MINKRAY\" render scene.json -s 1 -o a.png --checkpoint 0"));
   EXPECT_TRUE(fs::is_fifo(folder_ / "a.png.checkpoint"));
 }
 
 // 100 MB without a line's end, before a query that is answered all the same.
 TEST_F(NothingLost, an_endless_line_is_an_error_and_does_not_fill_the_memory) {
-  const ProgramOutcome outcome = shell(
-      "(head -c 100000000 /dev/zero | tr '\\0' x; echo; "
-      "echo '{\"type\": \"cast_ray\"}') > long.jsonl; " +
-      limited_memory() + "\"$MINKRAY\" cast --threads 1 long.jsonl");
-  EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_NE(outcome.err.find("long.jsonl:1: must not be longer than 67108864 bytes"),
-            std::string::npos)
-      << outcome.err;
-  EXPECT_NE(outcome.err.find("long.jsonl:2: "), std::string::npos) << outcome.err;
+  expect_exit(3,
+              shell("(head -c 100000000 /dev/zero | tr '\\0' x; echo; "
+                    "echo '{\"type\": \"cast_ray\"}') > long.jsonl; " +
+                    limited_memory() + "\"$MINKRAY\" cast --threads 1 long.jsonl"),
+              {"long.jsonl:1: must not be longer than 67108864 bytes", "long.jsonl:2: "});
 }
 
 }  // namespace

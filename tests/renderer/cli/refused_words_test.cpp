@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "tests/renderer/cli/nothing_lost.h"
+#include "tests/support/expect_exit.h"
 
 namespace minkray {
 namespace {
@@ -34,15 +35,13 @@ TEST_F(NothingLost, values_that_do_not_fit_are_wrong_usage) {
                                       "distance-2d scene.json -o scene.json",
                                       "frobnicate",
                                       "merge -o a.png"}) {
-    const ProgramOutcome outcome = shell("\"$MINKRAY\" " + arguments);
+    const ProgramOutcome outcome = minkray(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
     EXPECT_NE(outcome.err, "") << arguments;
   }
-  EXPECT_EQ(shell("\"$MINKRAY\" trace scene.json --pixel 1,1 --svg ''").exit_code, 4);
+  expect_exit(4, minkray("trace scene.json --pixel 1,1 --svg ''"));
   EXPECT_EQ(folder_.files(), std::vector<std::string>{"scene.json"});
-  EXPECT_EQ(
-      shell("\"$MINKRAY\" render scene.json -o a.png -s 1 --seed 18446744073709551615").exit_code,
-      0);
+  expect_exit(0, minkray("render scene.json -o a.png -s 1 --seed 18446744073709551615"));
 }
 
 TEST_F(NothingLost, messages_about_values_have_one_form) {
@@ -56,14 +55,14 @@ TEST_F(NothingLost, messages_about_values_have_one_form) {
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_EQ(outcome.err.substr(0, outcome.err.find('\n')), message);
   }
-  EXPECT_TRUE(shell("\"$MINKRAY\" trace scene.json --pixel 1")
+  EXPECT_TRUE(minkray("trace scene.json --pixel 1")
                   .err.starts_with("--pixel: must have at least 2 values (got 1)\n"));
-  EXPECT_TRUE(shell("\"$MINKRAY\" distance scene.json scene.json --at-most far")
+  EXPECT_TRUE(minkray("distance scene.json scene.json --at-most far")
                   .err.starts_with("--at-most: must be a number (got far)\n"));
 }
 
 TEST_F(NothingLost, no_output_takes_the_place_of_an_input_or_another_output) {
-  const ProgramOutcome made = shell(R"(set -e
+  expect_exit(0, shell(R"(set -e
     fails() { expected=$1; shift; if "$MINKRAY" "$@"; then exit 1; else test $? = $expected; fi; }
     for i in 1 2; do "$MINKRAY" render scene.json -s 1 --tile $i/2 -o $i.exr; done
     cp 1.exr kept1.exr; cp 2.exr kept2.exr
@@ -79,14 +78,13 @@ TEST_F(NothingLost, no_output_takes_the_place_of_an_input_or_another_output) {
     grep -q notes a.png.checkpoint
     mkdir b.png.checkpoint
     fails 4 render scene.json -s 1 -o b.png
-    test -d b.png.checkpoint)");
-  EXPECT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_NE(made.err.find("a.png.checkpoint: not a checkpoint"), std::string::npos) << made.err;
+    test -d b.png.checkpoint)"),
+              {"a.png.checkpoint: not a checkpoint"});
 }
 
 /// The textures and the sky of a scene were written over.
 TEST_F(NothingLost, a_picture_takes_the_place_of_none_that_the_scene_shows) {
-  const ProgramOutcome made = shell(R"(set -e
+  expect_exit(0, shell(R"(set -e
     fails() { if "$MINKRAY" "$@"; then exit 1; else test $? = 2; fi; }
     "$MINKRAY" render scene.json -s 1 -r 8x8 -o sky1.png; cp sky1.png kept.png; ln -s sky1.png link.png
     printf '%s' '{"version": 1, "camera": {"position": [0, -5, 1], "look_at": [0, 0, 0]},
@@ -100,15 +98,13 @@ TEST_F(NothingLost, a_picture_takes_the_place_of_none_that_the_scene_shows) {
     fails heatmap lit.json -r 8x8 -o sky1.png
     fails compare lit.json --rays 10 -r 8x8 -o sky1.png
     test ! -e a.png; test ! -e f0.png; test ! -e sky0.png; cmp sky1.png kept.png
-    "$MINKRAY" render lit.json -s 1 -r 8x8 -o a.png -q)");
-  EXPECT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_NE(made.err.find("--output: sky1.png is read or written already, as"), std::string::npos)
-      << made.err;
+    "$MINKRAY" render lit.json -s 1 -r 8x8 -o a.png -q)"),
+              {"--output: sky1.png is read or written already, as"});
 }
 
 /// The CSV file of a lidar's pattern was gone, and so was the robot's path.
 TEST_F(NothingLost, a_scan_takes_the_place_of_nothing_that_it_reads) {
-  const ProgramOutcome made = shell(R"(set -e
+  expect_exit(0, shell(R"(set -e
     fails() { if "$MINKRAY" "$@"; then exit 1; else test $? = 2; fi; }
     printf 'time,azimuth,zenith\n0,1,90\n' > pattern.csv; cp pattern.csv kept.csv
     fails scan scene.json --pattern pattern.csv -o pattern.csv
@@ -117,17 +113,15 @@ TEST_F(NothingLost, a_scan_takes_the_place_of_nothing_that_it_reads) {
     fails scan scene.json --pattern spinning:2x4 --path pattern.csv -o a.ply -o pattern.csv
     fails scan scene.json --pattern spinning:2x4 --joints pattern.csv -o pattern.csv
     test ! -e a.ply; cmp pattern.csv kept.csv
-    "$MINKRAY" scan scene.json --pattern pattern.csv -o a.csv -o a.ply -q)");
-  EXPECT_EQ(made.exit_code, 0) << made.err;
-  EXPECT_NE(made.err.find("--output: pattern.csv is read or written already"), std::string::npos)
-      << made.err;
+    "$MINKRAY" scan scene.json --pattern pattern.csv -o a.csv -o a.ply -q)"),
+              {"--output: pattern.csv is read or written already"});
 }
 
 TEST_F(NothingLost, help_that_nobody_gets_is_no_success) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
-  EXPECT_EQ(shell("\"$MINKRAY\" --help > /dev/full").exit_code, 4);
-  EXPECT_EQ(shell("\"$MINKRAY\" render --help > /dev/full").exit_code, 4);
-  EXPECT_EQ(shell("\"$MINKRAY\" --version > /dev/full").exit_code, 4);
+  expect_exit(4, minkray("--help > /dev/full"));
+  expect_exit(4, minkray("render --help > /dev/full"));
+  expect_exit(4, minkray("--version > /dev/full"));
 }
 
 }  // namespace

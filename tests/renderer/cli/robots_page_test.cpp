@@ -33,8 +33,8 @@ TEST(RobotsPage, every_command_of_the_robots_page_runs) {
     const bool is_ours = command.starts_with("./run ");
     ASSERT_TRUE(is_ours || command.starts_with("printf ")) << command;
     const ProgramOutcome outcome =
-        run_shell("cd '" + folder / "" + "' && ln -sfn '" + (source_folder() / "scenes").string() +
-                  "' scenes && " + (is_ours ? "$MINKRAY " + command.substr(6) : command));
+        run_in(folder, "ln -sfn '" + (source_folder() / "scenes").string() + "' scenes && " +
+                           (is_ours ? "$MINKRAY " + command.substr(6) : command));
     EXPECT_EQ(outcome.exit_code, 0) << command << "\n" << outcome.err;
   }
   const std::vector<std::string> files = folder.files();

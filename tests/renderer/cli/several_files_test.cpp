@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "renderer/json/json.h"
-#include "tests/support/program.h"
+#include "tests/support/expect_exit.h"
 #include "tests/support/source_files.h"
 
 namespace minkray {
@@ -26,15 +26,11 @@ class SeveralFiles : public ::testing::Test {
     write_ball_scene(folder_ / "ball.json", 0.25);
   }
 
-  ProgramOutcome run(const std::string& words) const {
-    return run_shell("cd '" + folder_.path().string() + "' && $MINKRAY " + words);
-  }
+  ProgramOutcome run(const std::string& words) const { return run_minkray(folder_, words); }
 
   /// The values of t that a scan has, and the object's number of each.
   std::vector<std::pair<double, std::string>> scan(const std::string& files) const {
-    const ProgramOutcome outcome =
-        run("scan " + files + " --pattern cross.csv -q -o scan.csv --ids ids.json");
-    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    expect_exit(0, run("scan " + files + " --pattern cross.csv -q -o scan.csv --ids ids.json"));
     std::istringstream lines(text_of_file(folder_ / "scan.csv"));
     std::string line;
     std::getline(lines, line);
@@ -72,8 +68,7 @@ TEST_F(SeveralFiles, are_scanned_together) {
 TEST_F(SeveralFiles, are_described_together) {
   const ProgramOutcome text = run("info slide.urdf world.sdf");
   EXPECT_EQ(text.exit_code, 0) << text.err;
-  EXPECT_NE(text.out.find("URDF"), std::string::npos) << text.out;
-  EXPECT_NE(text.out.find("SDF"), std::string::npos) << text.out;
+  expect_parts(text.out, {"URDF", "SDF"});
   const Json one = Json::parse(run("info slide.urdf --json").out);
   const Json both = Json::parse(run("info slide.urdf world.sdf ball.json --json").out);
   EXPECT_EQ(one["objects"].get<int>() + 2, both["objects"].get<int>());
@@ -97,33 +92,24 @@ TEST_F(SeveralFiles, are_seen_by_the_camera_of_the_first_scene_file) {
 }
 
 TEST_F(SeveralFiles, are_rendered_and_inspected_together) {
-  const ProgramOutcome picture =
-      run("render slide.urdf ball.json world.sdf -o together.png -s 1 -r 16x12 -q");
-  EXPECT_EQ(picture.exit_code, 0) << picture.err;
-  const ProgramOutcome page = run("inspect ball.json slide.urdf -o together.html -s 1 -r 16x12 -q");
-  EXPECT_EQ(page.exit_code, 0) << page.err;
+  expect_exit(0, run("render slide.urdf ball.json world.sdf -o together.png -s 1 -r 16x12 -q"));
+  expect_exit(0, run("inspect ball.json slide.urdf -o together.html -s 1 -r 16x12 -q"));
   // A part file stores all files that it was made of: another world is not the same scene.
   for (const auto& [files, part] : {std::pair("slide.urdf world.sdf", "1"),
                                     {"slide.urdf world.sdf", "2"},
                                     {"slide.urdf ball.json", "3"}}) {
     const std::string tile = std::string(part) == "1" ? "1/2" : "2/2";
-    EXPECT_EQ(run("render " + std::string(files) + " -s 1 -r 16x12 -q --tile " + tile + " -o " +
-                  part + ".exr")
-                  .exit_code,
-              0);
+    expect_exit(0, run("render " + std::string(files) + " -s 1 -r 16x12 -q --tile " + tile +
+                       " -o " + part + ".exr"));
   }
-  EXPECT_EQ(run("merge 1.exr 2.exr -o whole.png").exit_code, 0);
+  expect_exit(0, run("merge 1.exr 2.exr -o whole.png"));
   EXPECT_NE(run("merge 1.exr 3.exr -o other.png").exit_code, 0);
 }
 
 TEST_F(SeveralFiles, what_is_wrong_with_one_is_told) {
-  const ProgramOutcome missing = run("info slide.urdf nothing.sdf");
-  EXPECT_EQ(missing.exit_code, 3);
-  EXPECT_NE(missing.err.find("nothing.sdf"), std::string::npos) << missing.err;
+  expect_exit(3, run("info slide.urdf nothing.sdf"), {"nothing.sdf"});
   folder_.write("wrong.json", R"({"version": 1})");
-  const ProgramOutcome wrong = run("render slide.urdf wrong.json -o a.png");
-  EXPECT_EQ(wrong.exit_code, 3);
-  EXPECT_NE(wrong.err.find("wrong.json: "), std::string::npos) << wrong.err;
+  expect_exit(3, run("render slide.urdf wrong.json -o a.png"), {"wrong.json: "});
 }
 
 }  // namespace

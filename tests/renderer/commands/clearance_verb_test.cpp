@@ -7,15 +7,17 @@
 
 #include "renderer/io/exr.h"
 #include "renderer/json/json.h"
-#include "tests/support/program.h"
+#include "tests/support/expect_exit.h"
 #include "tests/support/source_files.h"
 
 namespace minkray {
 namespace {
 
 /// A pendulum of a ball that hangs 1 from its hinge, and a post 1.5 away.
-void write_pendulum(const TemporaryFolder& folder) {
-  std::ofstream(folder / "pendulum.urdf") << R"(<robot name="pendulum">
+class ClearanceVerb : public ::testing::Test {
+ protected:
+  ClearanceVerb() {
+    folder.write("pendulum.urdf", R"(<robot name="pendulum">
   <link name="post"><collision><origin xyz="1.5 0 0"/>
     <geometry><sphere radius="0.2"/></geometry></collision></link>
   <link name="arm"/>
@@ -24,23 +26,22 @@ void write_pendulum(const TemporaryFolder& folder) {
     <axis xyz="0 1 0"/></joint>
   <joint name="rod" type="continuous"><parent link="arm"/><child link="bob"/>
     <origin xyz="0 0 -1"/></joint>
-</robot>)";
-  // Angles from hanging down to straight up: at -pi/2 the bob is nearest to the post.
-  std::ofstream(folder / "swing.csv") << "time,swing\n0,0\n2,-3.141592653589793\n";
-  std::ofstream(folder / "half.csv") << "swing\n0\n-1\n";
-  std::ofstream(folder / "pendulum.srdf") << R"(<robot name="pendulum">
-  <disable_collisions link1="bob" link2="post" reason="Never"/></robot>)";
-  write_ball_scene(folder / "ball.json", 0.5);
-}
-
-ProgramOutcome clearance(const TemporaryFolder& folder, const std::string& words) {
-  return run_shell("cd '" + folder / "" + "' && $MINKRAY clearance pendulum.urdf " + words);
-}
-
-TEST(ClearanceVerb, names_the_pair_and_the_time_of_the_least) {
+</robot>)");
+    // Angles from hanging down to straight up: at -pi/2 the bob is nearest to the post.
+    folder.write("swing.csv", "time,swing\n0,0\n2,-3.141592653589793\n");
+    folder.write("half.csv", "swing\n0\n-1\n");
+    folder.write("pendulum.srdf", R"(<robot name="pendulum">
+  <disable_collisions link1="bob" link2="post" reason="Never"/></robot>)");
+    write_ball_scene(folder / "ball.json", 0.5);
+  }
+  ProgramOutcome clearance(const std::string& words) const {
+    return run_minkray(folder, "clearance pendulum.urdf " + words);
+  }
   const TemporaryFolder folder;
-  write_pendulum(folder);
-  const ProgramOutcome outcome = clearance(folder, "--path swing.csv --tolerance 1e-6");
+};
+
+TEST_F(ClearanceVerb, names_the_pair_and_the_time_of_the_least) {
+  const ProgramOutcome outcome = clearance("--path swing.csv --tolerance 1e-6");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const Json answer = Json::parse(outcome.out);
   // Between the ball's way and the post there is 1.5 - 1 - 0.1 - 0.2.
@@ -57,40 +58,34 @@ TEST(ClearanceVerb, names_the_pair_and_the_time_of_the_least) {
   EXPECT_EQ(answer["pairs"].get<int>(), 1);
 }
 
-TEST(ClearanceVerb, what_may_touch_is_not_asked_for) {
-  const TemporaryFolder folder;
-  write_pendulum(folder);
+TEST_F(ClearanceVerb, what_may_touch_is_not_asked_for) {
   for (const char* words : {"--srdf pendulum.srdf", "--allow post,bob", "--only-obstacles"}) {
-    const ProgramOutcome outcome = clearance(folder, std::string("--path swing.csv ") + words);
+    const ProgramOutcome outcome = clearance(std::string("--path swing.csv ") + words);
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(Json::parse(outcome.out)["pairs"].get<int>(), 0) << words;
   }
 }
 
-TEST(ClearanceVerb, obstacles_are_scenes_and_a_collision_is_told_with_its_depth) {
-  const TemporaryFolder folder;
-  write_pendulum(folder);
+TEST_F(ClearanceVerb, obstacles_are_scenes_and_a_collision_is_told_with_its_depth) {
   const ProgramOutcome outcome =
-      clearance(folder, "--path swing.csv --obstacle ball.json --tolerance 1e-6");
+      clearance("--path swing.csv --obstacle ball.json --tolerance 1e-6");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const Json answer = Json::parse(outcome.out);
   // The ball around the hinge has a radius of 0.5: 1 - 0.1 - 0.5 all the time; the post is nearer.
   EXPECT_NEAR(answer["upper"].get<double>(), 0.2, 1e-6);
   write_ball_scene(folder / "ball.json", 0.95);
   const Json collision =
-      Json::parse(clearance(folder, "--path swing.csv --obstacle ball.json --tolerance 1e-6").out);
+      Json::parse(clearance("--path swing.csv --obstacle ball.json --tolerance 1e-6").out);
   EXPECT_EQ(collision["status"].text(), "collides");
   EXPECT_NEAR(collision["lower"].get<double>(), -0.05, 1e-6);
   EXPECT_EQ(collision["b"].text(), "ball");
 }
 
-TEST(ClearanceVerb, without_a_path_it_is_that_of_one_pose) {
-  const TemporaryFolder folder;
-  write_pendulum(folder);
+TEST_F(ClearanceVerb, without_a_path_it_is_that_of_one_pose) {
   // The bob hangs down: the post's middle is sqrt(1.5^2 + 1^2) away.
   for (const auto& [words, distance] : std::vector<std::pair<std::string, double>>{
            {"", std::hypot(1.5, 1) - 0.3}, {"--joint swing=-1.5707963267948966", 0.2}}) {
-    const ProgramOutcome outcome = clearance(folder, words + " --tolerance 1e-6");
+    const ProgramOutcome outcome = clearance(words + " --tolerance 1e-6");
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     const Json answer = Json::parse(outcome.out);
     EXPECT_NEAR(answer["lower"].get<double>(), distance, 1e-6);
@@ -98,80 +93,58 @@ TEST(ClearanceVerb, without_a_path_it_is_that_of_one_pose) {
     EXPECT_EQ(answer["time"].get<double>(), 0);
     EXPECT_EQ(answer["steps"].get<int>(), 1);
   }
-  EXPECT_EQ(clearance(folder, "--joint swing=-1.5707963267948966 --at-least 0.21").exit_code, 1);
+  expect_exit(1, clearance("--joint swing=-1.5707963267948966 --at-least 0.21"));
 }
 
 /// Previously "clear", with infinite bounds.
-TEST(ClearanceVerb, particles_are_obstacles) {
-  const TemporaryFolder folder;
-  write_pendulum(folder);
+TEST_F(ClearanceVerb, particles_are_obstacles) {
   std::ofstream(folder / "grains.json") << R"({"version": 1, "lights": [],
     "camera": {"position": [0, -9, 1], "look_at": [0, 0, 0]},
     "materials": [{"name": "m", "type": "lambert", "color": [1, 1, 1]}], "objects": [],
     "particles": [{"name": "grains", "shape": {"type": "sphere", "radius": 0.3}, "material": "m",
                    "columns": ["position"], "count": 2, "poses": [[9, 0, 0], [-1, 0, 0]]}]})";
   std::ofstream(folder / "other.csv") << "swing\n0\n3\n";
-  const Json answer = Json::parse(
-      clearance(folder, "--path other.csv --obstacle grains.json --only-obstacles").out);
+  const Json answer =
+      Json::parse(clearance("--path other.csv --obstacle grains.json --only-obstacles").out);
   EXPECT_EQ(answer["status"].text(), "collides");
   EXPECT_EQ(answer["b"].text(), "grains[1]");
   EXPECT_NEAR(answer["upper"].get<double>(), -0.4, 0.01);
   EXPECT_EQ(answer["pairs"].get<int>(), 2);
 }
 
-TEST(ClearanceVerb, fails_where_less_is_proven_than_is_asked_for) {
-  const TemporaryFolder folder;
-  write_pendulum(folder);
-  EXPECT_EQ(clearance(folder, "--path swing.csv --at-least 0.19").exit_code, 0);
-  const ProgramOutcome less = clearance(folder, "--path swing.csv --at-least 0.21");
-  EXPECT_EQ(less.exit_code, 1);
-  EXPECT_NE(less.err.find("not proven to be at least 0.21"), std::string::npos);
+TEST_F(ClearanceVerb, fails_where_less_is_proven_than_is_asked_for) {
+  expect_exit(0, clearance("--path swing.csv --at-least 0.19"));
+  expect_exit(1, clearance("--path swing.csv --at-least 0.21"), {"not proven to be at least 0.21"});
   // Half the way it does not come so near.
-  EXPECT_EQ(clearance(folder, "--path half.csv --at-least 0.21").exit_code, 0);
+  expect_exit(0, clearance("--path half.csv --at-least 0.21"));
 }
 
-TEST(ClearanceVerb, every_step_has_a_row_and_the_sweep_is_a_scene_that_renders) {
-  const TemporaryFolder folder;
-  write_pendulum(folder);
-  const ProgramOutcome outcome =
-      clearance(folder, "--path swing.csv --steps steps.csv --sweep sweep.json");
+TEST_F(ClearanceVerb, every_step_has_a_row_and_the_sweep_is_a_scene_that_renders) {
+  const ProgramOutcome outcome = clearance("--path swing.csv --steps steps.csv --sweep sweep.json");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::string steps = text_of_file(folder / "steps.csv");
   EXPECT_TRUE(steps.starts_with("begin,end,lower,upper,time,a,b,status\n0,2,0.1")) << steps;
   EXPECT_EQ(std::ranges::count(steps, '\n'), 2);
-  const ProgramOutcome picture =
-      run_shell("cd '" + folder / "" + "' && $MINKRAY render sweep.json -o sweep.png -r 32x24 -q");
-  EXPECT_EQ(picture.exit_code, 0) << picture.err;
+  expect_exit(0, run_minkray(folder, "render sweep.json -o sweep.png -r 32x24 -q"));
 }
 
-TEST(ClearanceVerb, what_is_wrong_is_told) {
-  const TemporaryFolder folder;
-  write_pendulum(folder);
+TEST_F(ClearanceVerb, what_is_wrong_is_told) {
   std::ofstream(folder / "wrong.csv") << "swinging\n0\n";
   std::ofstream(folder / "wrong.srdf")
       << R"(<robot><disable_collisions link1="bob" link2="nobody"/></robot>)";
-  const ProgramOutcome path = clearance(folder, "--path wrong.csv");
-  EXPECT_EQ(path.exit_code, 3);
-  EXPECT_NE(path.err.find("--path: wrong.csv: line 1: column \"swinging\": no joint has this name"),
-            std::string::npos)
-      << path.err;
-  const ProgramOutcome srdf = clearance(folder, "--path swing.csv --srdf wrong.srdf");
-  EXPECT_EQ(srdf.exit_code, 3);
-  EXPECT_NE(srdf.err.find("link2: there is no link \"nobody\""), std::string::npos) << srdf.err;
+  expect_exit(3, clearance("--path wrong.csv"),
+              {"--path: wrong.csv: line 1: column \"swinging\": no joint has this name"});
+  expect_exit(3, clearance("--path swing.csv --srdf wrong.srdf"),
+              {"link2: there is no link \"nobody\""});
   // The way between the rows is infinite, and became 2^63 parts of a sweep.
   std::ofstream(folder / "far.csv") << "swing\n-1e308\n1e308\n";
-  const ProgramOutcome far = clearance(folder, "--path far.csv --sweep sweep.json");
-  EXPECT_EQ(far.exit_code, 3);
-  EXPECT_NE(far.err.find("path: row 2 of 2: the joint \"swing\" must not change by more"),
-            std::string::npos)
-      << far.err;
-  EXPECT_EQ(clearance(folder, "--path swing.csv --allow bob").exit_code, 3);
-  EXPECT_EQ(clearance(folder, "--path swing.csv --at-least much").exit_code, 2);
-  EXPECT_EQ(clearance(folder, "--joint nothing=1").exit_code, 3);
-  const ProgramOutcome scene =
-      run_shell("cd '" + folder / "" + "' && $MINKRAY clearance ball.json --path swing.csv");
-  EXPECT_EQ(scene.exit_code, 3);
-  EXPECT_NE(scene.err.find("must be a robot's file"), std::string::npos) << scene.err;
+  expect_exit(3, clearance("--path far.csv --sweep sweep.json"),
+              {"path: row 2 of 2: the joint \"swing\" must not change by more"});
+  expect_exit(3, clearance("--path swing.csv --allow bob"));
+  expect_exit(2, clearance("--path swing.csv --at-least much"));
+  expect_exit(3, clearance("--joint nothing=1"));
+  expect_exit(3, run_minkray(folder, "clearance ball.json --path swing.csv"),
+              {"must be a robot's file"});
 }
 
 TEST(FieldVerb, the_numbers_are_the_distances_from_a_ball) {
@@ -179,11 +152,9 @@ TEST(FieldVerb, the_numbers_are_the_distances_from_a_ball) {
   write_ball_scene(folder / "ball.json", 0.75);
   std::ofstream(folder / "probe.json") << R"({"type": "sphere", "radius": 0.25})";
   for (const bool has_probe : {false, true}) {
-    const ProgramOutcome outcome =
-        run_shell("cd '" + folder / "" +
-                  "' && $MINKRAY field ball.json -o field.exr -o field.png -r 40x30 "
-                  "--extent 4 --through 0,0,0.5" +
-                  (has_probe ? " --probe probe.json" : ""));
+    const ProgramOutcome outcome = run_minkray(
+        folder, std::string("field ball.json -o field.exr -o field.png -r 40x30 --extent 4 ") +
+                    "--through 0,0,0.5" + (has_probe ? " --probe probe.json" : ""));
     ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_TRUE(outcome.out.starts_with("least distance -")) << outcome.out;
     const ExrImage image = read_exr(folder / "field.exr");
@@ -211,14 +182,11 @@ TEST(FieldVerb, what_is_wrong_is_told) {
   const TemporaryFolder folder;
   write_ball_scene(folder / "ball.json");
   const auto field = [&](const std::string& words) {
-    return run_shell("cd '" + folder / "" + "' && $MINKRAY field ball.json -o f.png " + words)
-        .exit_code;
+    return run_minkray(folder, "field ball.json -o f.png " + words);
   };
-  EXPECT_EQ(field("--normal 0,0,0"), 2);
-  EXPECT_EQ(field("--normal 1,2"), 2);
-  EXPECT_EQ(field("-r 40"), 2);
-  EXPECT_EQ(field("--probe nothing.json"), 3);
-  EXPECT_EQ(field("--tolerance nan"), 2);
+  for (const char* words : {"--normal 0,0,0", "--normal 1,2", "-r 40", "--tolerance nan"})
+    expect_exit(2, field(words));
+  expect_exit(3, field("--probe nothing.json"));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "renderer/json/json.h"
+#include "tests/support/messages.h"
 #include "tests/support/program.h"
 #include "tests/support/source_files.h"
 
@@ -42,7 +43,7 @@ class DistanceVerb : public ::testing::Test {
   }
 
   ProgramOutcome run(const std::string& words) const {
-    return run_shell("cd '" + folder_.path().string() + "' && $MINKRAY distance " + words);
+    return run_minkray(folder_, "distance " + words);
   }
   Json json_of(const std::string& words) const {
     const ProgramOutcome outcome = run(words + " --json");
@@ -139,9 +140,7 @@ TEST_F(DistanceVerb, tables_are_text_or_csv_of_the_same_numbers) {
   const ProgramOutcome text = run("arm.urdf world.sdf --within 1.7");
   ASSERT_EQ(text.exit_code, 0) << text.err;
   EXPECT_TRUE(text.out.starts_with("a  ")) << text.out;
-  EXPECT_NE(text.out.find("\nbase/box     hand/sphere      0.25      0.25   0.25   0.5 0 0 "),
-            std::string::npos)
-      << text.out;
+  EXPECT_TRUE(has(text.out, "\nbase/box     hand/sphere      0.25      0.25   0.25   0.5 0 0 "));
   EXPECT_EQ(std::ranges::count(text.out, '\n'), 4);
   const ProgramOutcome file = run("arm.urdf world.sdf --within 1.7 -o pairs.csv");
   ASSERT_EQ(file.exit_code, 0) << file.err;
@@ -171,7 +170,7 @@ TEST_F(DistanceVerb, what_is_wrong_with_its_words_or_files_is_told) {
   const auto expect = [&](const std::string& words, int code, const std::string& text) {
     const ProgramOutcome outcome = run(words);
     EXPECT_EQ(outcome.exit_code, code) << words << "\n" << outcome.err;
-    EXPECT_NE(outcome.err.find(text), std::string::npos) << words << "\n" << outcome.err;
+    EXPECT_TRUE(has(outcome.err, text)) << words;
   };
   expect("", 2, "files");
   expect("tool.json", 2, "must have a second file");

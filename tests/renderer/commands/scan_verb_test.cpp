@@ -13,7 +13,7 @@
 #include "renderer/io/exr.h"
 #include "renderer/io/read_image.h"
 #include "renderer/json/json.h"
-#include "tests/support/program.h"
+#include "tests/support/expect_exit.h"
 #include "tests/support/source_files.h"
 
 namespace minkray {
@@ -37,7 +37,7 @@ class ScanVerb : public ::testing::Test {
   }
 
   ProgramOutcome scan(const std::string& arguments) {
-    return run_shell("cd '" + folder_ / "" + "' && $MINKRAY scan " + arguments);
+    return run_minkray(folder_, "scan " + arguments);
   }
   std::string text(const std::string& name) { return text_of_file(folder_ / name); }
 
@@ -178,9 +178,7 @@ TEST_F(ScanVerb, a_sensor_on_a_link_goes_where_the_joints_bring_it) {
   EXPECT_NEAR(rows[0].t, 3.5, 1e-12);
   EXPECT_EQ(rows[1].object, -1);
   EXPECT_EQ(rows[2].object, -1);
-  const ProgramOutcome unknown = scan("r.urdf --pattern one.csv --on haed -o a.npy");
-  EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_NE(unknown.err.find("did you mean \"head\""), std::string::npos) << unknown.err;
+  expect_exit(2, scan("r.urdf --pattern one.csv --on haed -o a.npy"), {"did you mean \"head\""});
 }
 
 TEST_F(ScanVerb, a_path_moves_the_sensor) {
@@ -241,24 +239,22 @@ TEST_F(ScanVerb, rays_of_length_zero_and_wrong_arrays_are_answered_or_refused) {
     EXPECT_EQ(scan("r.urdf --rays rays.npy -o a.npy").exit_code, 3) << bytes.substr(0, 90);
   }
   // Too many rays are rejected before memory ends.
-  EXPECT_EQ(scan("r.urdf --pattern spinning:65536x65536 -o a.npy").exit_code, 2);
+  expect_exit(2, scan("r.urdf --pattern spinning:65536x65536 -o a.npy"));
   // No rays at all are an array of none.
   write(array("<f8", "(0, 6)", {}));
-  EXPECT_EQ(scan("r.urdf --rays rays.npy -o a.npy -q").exit_code, 0);
+  expect_exit(0, scan("r.urdf --rays rays.npy -o a.npy -q"));
 }
 
 TEST_F(ScanVerb, a_sensor_that_stands_in_a_body_is_told_of) {
   const std::string pattern = "r.urdf --pattern spinning:4x8 -o a.npy";
   const ProgramOutcome within = scan(pattern + " --pose 5,0,3 --returns 2");
   EXPECT_EQ(within.exit_code, 0);
-  EXPECT_NE(within.err.find("32 of 32 rays start inside a body"), std::string::npos) << within.err;
-  EXPECT_EQ(scan(pattern + " --pose 2,0,3").err.find("within a body"), std::string::npos);
+  EXPECT_TRUE(has(within.err, "32 of 32 rays start inside a body"));
+  EXPECT_FALSE(has(scan(pattern + " --pose 2,0,3").err, "within a body"));
 }
 
 TEST_F(ScanVerb, a_pattern_without_its_numbers_is_told_which_it_wants) {
-  const ProgramOutcome outcome = scan("r.urdf --pattern spinning -o a.npy");
-  EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_NE(outcome.err.find("spinning:CHANNELSxSTEPS"), std::string::npos) << outcome.err;
+  expect_exit(2, scan("r.urdf --pattern spinning -o a.npy"), {"spinning:CHANNELSxSTEPS"});
 }
 
 /// Scene files had to have what pictures need.
@@ -272,10 +268,7 @@ TEST_F(ScanVerb, a_scene_that_is_only_scanned_needs_no_camera_and_no_lights) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(scan_rows(text("a.npy")).size(), 64u);
   EXPECT_EQ(text("a.las").substr(0, 4), "LASF");
-  const ProgramOutcome picture =
-      run_shell("cd '" + folder_ / "" + "' && $MINKRAY render bare.json -o a.png");
-  EXPECT_EQ(picture.exit_code, 3);
-  EXPECT_NE(picture.err.find("/camera"), std::string::npos) << picture.err;
+  expect_exit(3, run_minkray(folder_, "render bare.json -o a.png"), {"/camera"});
 }
 
 TEST_F(ScanVerb, wrong_numbers_of_sensors_are_told_before_anything_is_written) {
@@ -292,7 +285,7 @@ TEST_F(ScanVerb, wrong_numbers_of_sensors_are_told_before_anything_is_written) {
         {"--pattern HDL-32 ", "known here: spinning:CHANNELSxSTEPS, VLP-16"}}) {
     const ProgramOutcome outcome = scan("r.urdf -o a.npy " + std::string(words));
     EXPECT_EQ(outcome.exit_code, 2) << words;
-    EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+    EXPECT_TRUE(has(outcome.err, message));
   }
   EXPECT_EQ(text("a.npy"), "kept");
 }
@@ -305,9 +298,7 @@ TEST_F(ScanVerb, pixels_without_a_ray_are_counted) {
   const std::vector<ScanRow> rows = scan_rows(text("a.npy"));
   const auto missing = std::ranges::count(rows, 5, &ScanRow::status);
   EXPECT_GT(missing, 0);
-  EXPECT_NE(outcome.err.find(std::to_string(missing) + " of 221 pixels have no ray"),
-            std::string::npos)
-      << outcome.err;
+  EXPECT_TRUE(has(outcome.err, std::to_string(missing) + " of 221 pixels have no ray"));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <tuple>
 
-#include "tests/support/program.h"
+#include "tests/support/expect_exit.h"
 #include "tests/support/temporary_folder.h"
 
 namespace minkray {
@@ -49,23 +49,19 @@ TEST(VersionTwoFiles, are_read_by_all_commands) {
       {"render bad.json -q -o c.png", 3, "worse.json: /objects/0/shape/type"},
       {"distance r.urdf bad.json", 3, "worse.json: /objects/0/shape/type"}};
   for (const auto& [words, exit_code, expected] : commands) {
-    const ProgramOutcome outcome =
-        run_shell("cd '" + folder.path().string() + "' && $MINKRAY " + words);
+    const ProgramOutcome outcome = run_minkray(folder, words);
     EXPECT_EQ(outcome.exit_code, exit_code) << words << ": " << outcome.err;
-    EXPECT_NE((outcome.out + outcome.err).find(expected), std::string::npos)
+    EXPECT_TRUE(has((outcome.out + outcome.err), expected))
         << words << ": " << outcome.out << outcome.err;
   }
   // The picture is the same for any number of threads, as the default camera and light are.
-  const ProgramOutcome same = run_shell(
-      "cd '" + folder.path().string() +
-      "' && $MINKRAY render s.json -s 2 -q -t 1 -o 1.pfm && $MINKRAY render s.json -s 2 -q -t 7 -o "
-      "7.pfm && cmp 1.pfm 7.pfm");
-  EXPECT_EQ(same.exit_code, 0) << same.out << same.err;
+  expect_exit(0, run_minkray(folder,
+                             "render s.json -s 2 -q -t 1 -o 1.pfm && $MINKRAY render "
+                             "s.json -s 2 -q -t 7 -o "
+                             "7.pfm && cmp 1.pfm 7.pfm"));
   // No output takes the place of an included file.
-  EXPECT_EQ(run_shell("cd '" + folder.path().string() +
-                      "' && ln -s part.json part.png && $MINKRAY render s.json -s 1 -o part.png")
-                .exit_code,
-            2);
+  expect_exit(
+      2, run_in(folder, "ln -s part.json part.png && $MINKRAY render s.json -s 1 -o part.png"));
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Mattes by name: hashes as others have them, and coverage that is the picture's.
 #include "renderer/film/cryptomatte.h"
+#include "tests/support/messages.h"
+#include "tests/support/shifted.h"
 
 #include <gtest/gtest.h>
 
@@ -26,8 +28,7 @@ TEST(Cryptomatte, covers_what_the_picture_covers) {
   scene.camera.position = {0, -6, 0};
   scene.materials = {{"matt", LambertMaterial{}}};
   for (const double x : {-0.7, 0.7})
-    scene.objects.push_back(
-        {x < 0 ? "left" : "right", Sphere{0.8}, {Mat3<double>::Identity(), {x, 0.1 * x, 0}}, 0});
+    scene.objects.push_back({x < 0 ? "left" : "right", Sphere{0.8}, shifted_by(x, 0.1 * x, 0), 0});
   const World world = make_world(scene);
   RenderOptions options;
   options.resolution = {40, 30};
@@ -58,8 +59,7 @@ TEST(Cryptomatte, covers_what_the_picture_covers) {
   EXPECT_GT(mixed, 5);
   std::string all;
   for (const auto& [key, text] : mattes.texts) all += key + " " + text + "\n";
-  EXPECT_NE(all.find("/manifest {\"left\":"), std::string::npos) << all;
-  EXPECT_NE(all.find("/conversion uint32_to_float32"), std::string::npos);
+  expect_parts(all, {"/manifest {\"left\":", "/conversion uint32_to_float32"});
 }
 
 }  // namespace

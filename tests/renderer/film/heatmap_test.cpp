@@ -7,6 +7,8 @@
 #include <sstream>
 
 #include "renderer/image/colour.h"
+#include "tests/support/messages.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -17,7 +19,7 @@ Scene two_balls() {
   scene.camera.look_at = {0, 0, 0};
   scene.materials = {{"matt", LambertMaterial{}}};
   for (const double x : {-0.8, 0.8})
-    scene.objects.push_back({"ball", Sphere{0.7}, {Mat3<double>::Identity(), {x, 0, 0}}, 0});
+    scene.objects.push_back({"ball", Sphere{0.7}, shifted_by(x, 0, 0), 0});
   return scene;
 }
 
@@ -31,8 +33,7 @@ HeatField measure(const Scene& scene, HeatChannel channel, const CastOptions& ca
 
 /// Uses the models: a ball's closed form costs no iteration.
 CastOptions by_models() {
-  CastOptions options;
-  options.solver = SolverKind::jet;
+  const CastOptions options{SolverKind::jet};
   return options;
 }
 
@@ -83,7 +84,7 @@ TEST(Heatmap, status_tells_hit_inside_and_exhausted) {
   const HeatField field = measure(two_balls(), HeatChannel::status, impatient);
   EXPECT_TRUE(statuses(field).contains(3));
   EXPECT_GT(field.work.exhausted, 0u);
-  EXPECT_NE(heat_report(field, HeatChannel::status).find("exhausted"), std::string::npos);
+  EXPECT_TRUE(has(heat_report(field, HeatChannel::status), "exhausted"));
 }
 
 TEST(Heatmap, the_picture_holds_every_panel_and_a_scale) {
@@ -107,7 +108,7 @@ TEST(Heatmap, the_picture_holds_every_panel_and_a_scale) {
 TEST(Heatmap, the_histogram_counts_every_pixel) {
   const HeatField field{4, 2, {0, 0, 3, 7, 7, 7, 120, 55}, {}, true};
   const std::string report = heat_report(field, HeatChannel::nodes);
-  EXPECT_NE(report.find("min 0  mean 24.875  max 120"), std::string::npos) << report;
+  EXPECT_TRUE(has(report, "min 0  mean 24.875  max 120"));
   std::size_t total = 0;
   std::istringstream lines(report.substr(report.find('\n') + 1));
   for (std::string line; std::getline(lines, line);) total += std::stoul(line.substr(14));

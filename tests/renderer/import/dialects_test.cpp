@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "tests/renderer/import/imports.h"
+#include "tests/support/messages.h"
 #include "tests/support/random.h"
 
 namespace minkray {
@@ -49,8 +50,7 @@ TEST(Dialects, sizes_of_zero_are_points_segments_and_disks) {
   for (const auto& [shape, kind] : of_urdf)
     EXPECT_EQ(kind_of(model_of(urdf_shape(shape), "r.urdf")), kind) << shape;
   EXPECT_EQ(kind_of(model_of(sdf_shape("<sphere><radius>0</radius></sphere>"), "m.sdf")), "point");
-  EXPECT_NE(mistakes_of(urdf_shape("<sphere radius=\"-1\"/>")).find("radius: must be >= 0"),
-            std::string::npos);
+  EXPECT_TRUE(has(mistakes_of(urdf_shape("<sphere radius=\"-1\"/>")), "radius: must be >= 0"));
   // A flat shape lies where the ellipsoid's section would.
   const Model flat = model_of(urdf_shape("<ellipsoid radii=\"0 3 2\"/>"), "r.urdf");
   const std::pair<Vec3<double>, double> reaches[] = {
@@ -99,7 +99,7 @@ TEST(Dialects, a_missing_parent_is_told_once_and_not_as_a_circle) {
       "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"/><joint name=\"j\" type=\"fixed\">"
       "<parent link=\"nowhere\"/><child link=\"a\"/></joint><joint name=\"k\" type=\"fixed\">"
       "<parent link=\"a\"/><child link=\"b\"/></joint></robot>");
-  EXPECT_NE(told.find("the link \"nowhere\" not found"), std::string::npos) << told;
+  EXPECT_TRUE(has(told, "the link \"nowhere\" not found"));
   EXPECT_EQ(std::ranges::count(told, '\n'), 0) << told;
 }
 
@@ -107,9 +107,8 @@ TEST(Dialects, several_roots_are_told) {
   const Model model =
       model_of("<robot name=\"r\"><link name=\"a\"/><link name=\"b\"/></robot>", "r.urdf");
   EXPECT_TRUE(tells(model, "links without a parent"));
-  EXPECT_NE(mistakes_of("<robot name=\"a\"><link name=\"x\"/></robot><robot name=\"b\"/>")
-                .find("must have one root element"),
-            std::string::npos);
+  EXPECT_TRUE(has(mistakes_of("<robot name=\"a\"><link name=\"x\"/></robot><robot name=\"b\"/>"),
+                  "must have one root element"));
 }
 
 /// Compares the points of an area with the rule that counts crossings of a ray (even-odd).
@@ -154,10 +153,9 @@ TEST(Dialects, outlines_become_prisms_of_their_area) {
                      "m.sdf")
                 .geoms.size(),
             1u);
-  EXPECT_NE(
-      mistakes_of(sdf_shape("<polyline><point>0 0</point><point>1 1</point></polyline>"), "m.sdf")
-          .find("must enclose an area"),
-      std::string::npos);
+  EXPECT_TRUE(has(
+      mistakes_of(sdf_shape("<polyline><point>0 0</point><point>1 1</point></polyline>"), "m.sdf"),
+      "must enclose an area"));
 }
 
 TEST_F(MeshFolder, meshes_have_their_own_colours_unless_the_robot_gives_others) {
@@ -224,9 +222,8 @@ TEST_F(MeshFolder, missing_meshes_are_one_line_that_names_what_helps) {
       folder.write("r.urdf", "<robot name=\"r\"><link name=\"a\">" + links + "</link></robot>");
   const std::string told = complaint(file);
   EXPECT_EQ(std::ranges::count(told, '\n'), 1) << told;
-  for (const char* word : {"; 9 other meshes", "missing meshes: 10", "--package-dir",
-                           "--skip-missing-meshes", "--verbose"})
-    EXPECT_NE(told.find(word), std::string::npos) << told;
+  expect_parts(told, {"; 9 other meshes", "missing meshes: 10", "--package-dir",
+                      "--skip-missing-meshes", "--verbose"});
   ImportOptions verbose;
   verbose.verbose = true;
   EXPECT_EQ(std::ranges::count(complaint(file, verbose), '\n'), 10);
@@ -323,8 +320,8 @@ TEST_F(MeshFolder, rows_of_joints_beyond_their_limits_are_told) {
   const Imported moved = import("r.urdf", robot, options);
   EXPECT_TRUE(tells(*moved.model, "limit of the joint \"j\"", "at 3, outside -1 to 1"));
   options.joint_rows = folder.write("rows.csv", "time,j,j\n0,0,0\n");
-  EXPECT_NE(complaint(folder / "r.urdf", options).find("column \"j\": duplicate (given 2 times)"),
-            std::string::npos);
+  EXPECT_TRUE(
+      has(complaint(folder / "r.urdf", options), "column \"j\": duplicate (given 2 times)"));
 }
 
 TEST_F(MeshFolder, formats_are_known_by_content) {
@@ -340,7 +337,7 @@ TEST_F(MeshFolder, formats_are_known_by_content) {
       {"solid x\n", "a mesh (STL)"}};
   for (const auto& [begin, what] : others) {
     const std::string told = complaint(folder.write("a.json", begin));
-    EXPECT_NE(told.find(what), std::string::npos) << told;
+    EXPECT_TRUE(has(told, what));
   }
 }
 

@@ -9,6 +9,7 @@
 
 #include "renderer/import/import.h"
 #include "renderer/import/model/mesh_looks.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
 namespace minkray {
@@ -26,6 +27,13 @@ inline std::string mistakes_of(const std::string& text, const std::string& file 
   return mistakes.text();
 }
 
+/// Message for a file that must be rejected.
+inline std::string mistakes_of_file(const std::string& file) {
+  Mistakes mistakes(file);
+  EXPECT_FALSE(load_model(file, {}, mistakes));
+  return mistakes.text();
+}
+
 inline Model model_of(const std::string& text, const std::string& file,
                       const ImportOptions& options = {}) {
   Mistakes mistakes(file);
@@ -35,12 +43,7 @@ inline Model model_of(const std::string& text, const std::string& file,
 }
 
 inline std::string complaint(const std::filesystem::path& file, const ImportOptions& options = {}) {
-  try {
-    import_scene(file, options);
-  } catch (const BadInput& error) {
-    return error.what();
-  }
-  return "";
+  return message_of<BadInput>([&] { import_scene(file, options); });
 }
 
 inline std::string mjcf(const std::string& world, const std::string& before = "") {

@@ -10,6 +10,7 @@
 #include "renderer/import/mesh/mesh_library.h"
 #include "renderer/import/model/plane_tree.h"
 #include "renderer/import/model_info.h"
+#include "tests/support/messages.h"
 #include "tests/support/program.h"
 #include "tests/support/random.h"
 
@@ -40,8 +41,7 @@ TEST(MeshesOfScene, are_told_with_how_deep_a_vertex_lies_under_the_hull) {
   // In the hull of both the roof is far, and the vertex lies 1 under the other sides.
   EXPECT_NEAR(facts_of(meshes[1]).deepest, 1, 1e-12);
   EXPECT_EQ(facts_of(meshes[1]).hull_points, 6u);
-  EXPECT_NE(meshes_as_text(meshes).find("8 of 2 hulls; convex hull up to 0.577"), std::string::npos)
-      << meshes_as_text(meshes);
+  EXPECT_TRUE(has(meshes_as_text(meshes), "8 of 2 hulls; convex hull up to 0.577"));
 }
 
 TEST(MeshesOfScene, the_deepest_vertex_is_that_which_a_look_at_all_planes_finds) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "tests/fuzz/inputs.h"
+#include "tests/support/messages.h"
 
 namespace minkray {
 namespace {
@@ -33,12 +34,7 @@ std::string segment(char marker, const std::string& text) {
 }
 
 bool is_refused(std::string_view bytes) {
-  try {
-    check_jpeg(bytes);
-    return false;
-  } catch (const std::runtime_error&) {
-    return true;
-  }
+  return !message_of<std::runtime_error>([&] { check_jpeg(bytes); }).empty();
 }
 
 /// A frame of one component, or of three with two that have every second pixel.

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "renderer/io/png.h"
-#include "tests/support/program.h"
+#include "tests/support/expect_exit.h"
 #include "tests/support/temporary_folder.h"
 
 namespace minkray {
@@ -28,12 +28,7 @@ class EmptyChunks : public ::testing::Test {
   }
 
   std::string complaint(const std::string& bytes) const {
-    try {
-      read(bytes);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "";
+    return message_of<std::runtime_error>([&] { read(bytes); });
   }
 
   TemporaryFolder folder;
@@ -96,20 +91,15 @@ TEST(Chunks, of_pixels_that_the_file_does_not_hold_are_refused_before_there_is_r
   const TemporaryFolder folder;
   const std::string whole = picture_of_palette("\xff\xff\xff", std::string(4, '\0'));
   const auto read = [&](const std::string& bytes) -> std::string {
-    try {
-      read_image(folder.write("picture.png", bytes));
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "";
+    return message_of<std::runtime_error>([&] { read_image(folder.write("picture.png", bytes)); });
   };
   EXPECT_EQ(read(whole), "");
   const std::size_t name = whole.find("IDAT"), pixels = name + 4, checked = whole.find("IEND") - 8;
   std::string huge = whole;
   huge[name - 4] = '\x7a';  // the length's highest byte: 2 GB
-  EXPECT_NE(read(huge).find("cut off"), std::string::npos);
+  EXPECT_TRUE(has(read(huge), "cut off"));
   for (std::size_t length = pixels; length < checked; ++length)
-    EXPECT_NE(read(whole.substr(0, length)).find("cut off"), std::string::npos) << length;
+    EXPECT_TRUE(has(read(whole.substr(0, length)), "cut off")) << length;
   // Data behind the end is ignored.
   EXPECT_EQ(read(whole + huge.substr(name - 4, 8)), "");
 }
@@ -119,16 +109,10 @@ TEST_F(EmptyChunks, all_pictures_of_a_scene_have_a_limit_together) {
   const std::string file = folder.write("picture.png", picture);
   EXPECT_EQ(read_image(file, 20).width, 5);
   for (const std::int64_t left : {19, 0}) {
-    try {
-      read_image(file, left);
-      FAIL() << left;
-    } catch (const std::runtime_error& error) {
-      EXPECT_EQ(
-          std::string(error.what()),
-          "all pictures of a scene together must have at most 2^27 pixels (got 5 x 4, and those "
-          "before it leave " +
-              std::to_string(left) + ")");
-    }
+    EXPECT_EQ(message_of<std::runtime_error>([&] { read_image(file, left); }),
+              "all pictures of a scene together must have at most 2^27 pixels (got 5 x 4, and "
+              "those before it leave " +
+                  std::to_string(left) + ")");
   }
 }
 
@@ -143,11 +127,9 @@ TEST_F(EmptyChunks, running_out_of_memory_says_so) {
       "scene.json", R"({"version": 1, "camera": {"position": [0, -5, 1], "look_at": [0, 0, 0]},
     "lights": [{"type": "environment", "file": "large.png"}], "materials": [], "objects": []})");
   for (const char* kilobytes : {"200000", "500000"}) {
-    const ProgramOutcome outcome =
-        run_shell("ulimit -v " + std::string(kilobytes) + "; $MINKRAY info '" + scene + "'");
-    EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
-    EXPECT_NE(outcome.err.find("large.png: not enough memory to read it"), std::string::npos)
-        << outcome.err;
+    expect_exit(
+        3, run_shell("ulimit -v " + std::string(kilobytes) + "; $MINKRAY info '" + scene + "'"),
+        {"large.png: not enough memory to read it"});
   }
 }
 

@@ -4,7 +4,7 @@
 
 #include <fstream>
 
-#include "tests/support/program.h"
+#include "tests/support/expect_exit.h"
 #include "tests/support/source_files.h"
 
 namespace minkray {
@@ -25,8 +25,7 @@ class Frames : public ::testing::Test {
   }
 
   ProgramOutcome render(const std::string& arguments) const {
-    return run_shell("cd '" + (folder_ / "") + "' && \"$MINKRAY\" render scene.json -s 2 -q " +
-                     arguments);
+    return run_minkray(folder_, "render scene.json -s 2 -q " + arguments);
   }
   std::vector<std::string> pictures() const {
     std::vector<std::string> names;
@@ -39,29 +38,27 @@ class Frames : public ::testing::Test {
 };
 
 TEST_F(Frames, each_into_a_file_of_its_number_and_all_onto_the_contact_sheet) {
-  const ProgramOutcome outcome =
-      render("--frames 9..11 --rate 10 -o 'f-###.png' --contact-sheet sheet.png");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  expect_exit(0, render("--frames 9..11 --rate 10 -o 'f-###.png' --contact-sheet sheet.png"));
   EXPECT_EQ(pictures(), (std::vector<std::string>{"f-###.png.frames", "f-009.png", "f-010.png",
                                                   "f-011.png", "sheet.png"}));
   EXPECT_NE(text_of_file(folder_ / "f-009.png"), text_of_file(folder_ / "f-010.png"));
 }
 
 TEST_F(Frames, a_frame_is_the_same_alone_and_in_a_sequence) {
-  EXPECT_EQ(render("--frames 0..2 --rate 4 -o 'a#.pfm'").exit_code, 0);
-  EXPECT_EQ(render("--frames 2..2 --rate 4 -o 'b#.pfm'").exit_code, 0);
+  expect_exit(0, render("--frames 0..2 --rate 4 -o 'a#.pfm'"));
+  expect_exit(0, render("--frames 2..2 --rate 4 -o 'b#.pfm'"));
   EXPECT_TRUE(text_of_file(folder_ / "a2.pfm") == text_of_file(folder_ / "b2.pfm"));
   // Frame 0 is what the scene shows without frames.
-  EXPECT_EQ(render("-o still.pfm").exit_code, 0);
+  expect_exit(0, render("-o still.pfm"));
   EXPECT_TRUE(text_of_file(folder_ / "a0.pfm") == text_of_file(folder_ / "still.pfm"));
 }
 
 TEST_F(Frames, resume_renders_those_that_are_not_there) {
-  EXPECT_EQ(render("--frames 0..2 -o 'f#.png'").exit_code, 0);
+  expect_exit(0, render("--frames 0..2 -o 'f#.png'"));
   const std::string first = text_of_file(folder_ / "f1.png");
   std::ofstream(folder_ / "f0.png") << "kept";
   std::filesystem::remove(folder_ / "f1.png");
-  EXPECT_EQ(render("--frames 0..3 -o 'f#.png' --resume").exit_code, 0);
+  expect_exit(0, render("--frames 0..3 -o 'f#.png' --resume"));
   EXPECT_EQ(text_of_file(folder_ / "f0.png"), "kept");
   EXPECT_EQ(text_of_file(folder_ / "f1.png"), first);
   EXPECT_EQ(pictures(),
@@ -71,16 +68,16 @@ TEST_F(Frames, resume_renders_those_that_are_not_there) {
 // Until now whatever had a frame's name was taken for it.
 TEST_F(Frames, of_which_no_record_tells_are_rendered_again) {
   std::ofstream(folder_ / "f0.png") << "whose?";
-  EXPECT_EQ(render("--frames 0..1 -o 'f#.png' --resume").exit_code, 0);
+  expect_exit(0, render("--frames 0..1 -o 'f#.png' --resume"));
   EXPECT_EQ(text_of_file(folder_ / "f0.png").substr(1, 3), "PNG");
   // Another output has a record of its own.
   std::ofstream(folder_ / "f1.pfm") << "whose?";
-  EXPECT_EQ(render("--frames 0..1 -o 'f#.png' -o 'f#.pfm' --resume").exit_code, 0);
+  expect_exit(0, render("--frames 0..1 -o 'f#.png' -o 'f#.pfm' --resume"));
   EXPECT_EQ(text_of_file(folder_ / "f1.pfm").substr(0, 2), "PF");
 }
 
 TEST_F(Frames, of_another_animation_are_refused_with_what_differs) {
-  EXPECT_EQ(render("--frames 0..1 -o 'f#.png'").exit_code, 0);
+  expect_exit(0, render("--frames 0..1 -o 'f#.png'"));
   const std::string before = text_of_file(folder_ / "f#.png.frames");
   for (const auto& [options, difference] : std::vector<std::pair<std::string, std::string>>{
            {"-r 24x16", "minkray.resolution is 48x32, not 24x16"},
@@ -91,22 +88,19 @@ TEST_F(Frames, of_another_animation_are_refused_with_what_differs) {
            {"--solver paper", "minkray.solver is auto, not paper"}}) {
     const ProgramOutcome other = render("--frames 0..2 -o 'f#.png' --resume " + options);
     EXPECT_EQ(other.exit_code, 3) << options;
-    EXPECT_NE(other.err.find("f#.png.frames: is the record of other frames: " + difference),
-              std::string::npos)
-        << other.err;
-    EXPECT_NE(other.err.find("; remove it, or render without --resume\n"), std::string::npos)
-        << other.err;
+    expect_parts(other.err, {"f#.png.frames: is the record of other frames: " + difference,
+                             "; remove it, or render without --resume\n"});
   }
   EXPECT_EQ(text_of_file(folder_ / "f#.png.frames"), before);
   EXPECT_EQ(pictures(), (std::vector<std::string>{"f#.png.frames", "f0.png", "f1.png"}));
-  EXPECT_EQ(render("--frames 0..1 -o 'f#.png' --seed 3").exit_code, 0);
-  EXPECT_EQ(render("--frames 0..1 -o 'f#.png' --seed 3 --resume").exit_code, 0);
+  expect_exit(0, render("--frames 0..1 -o 'f#.png' --seed 3"));
+  expect_exit(0, render("--frames 0..1 -o 'f#.png' --seed 3 --resume"));
 }
 
 TEST_F(Frames, a_file_that_is_no_record_stays) {
   std::ofstream(folder_ / "f#.png.frames") << "notes";
-  EXPECT_EQ(render("--frames 0..1 -o 'f#.png'").exit_code, 4);
-  EXPECT_EQ(render("--frames 0..1 -o 'f#.png' --resume").exit_code, 3);
+  expect_exit(4, render("--frames 0..1 -o 'f#.png'"));
+  expect_exit(3, render("--frames 0..1 -o 'f#.png' --resume"));
   EXPECT_EQ(text_of_file(folder_ / "f#.png.frames"), "notes");
   EXPECT_EQ(pictures(), std::vector<std::string>{"f#.png.frames"});
 }
@@ -115,7 +109,7 @@ TEST_F(Frames, wrong_usage_is_told_and_leaves_nothing) {
   const auto tells = [&](const std::string& arguments, const std::string& what) {
     const ProgramOutcome outcome = render(arguments);
     EXPECT_EQ(outcome.exit_code, 2) << arguments;
-    EXPECT_NE(outcome.err.find(what), std::string::npos) << arguments << "\n" << outcome.err;
+    EXPECT_TRUE(has(outcome.err, what)) << arguments;
   };
   tells("--frames 9..3 -o 'f#.png'",
         "--frames: the first frame must not be after the last (got 9..3)");

@@ -9,6 +9,7 @@
 #include "renderer/film/render.h"
 #include "renderer/json/json.h"
 #include "tests/support/lit_ball.h"
+#include "tests/support/messages.h"
 #include "tests/support/program.h"
 
 namespace minkray {
@@ -77,7 +78,7 @@ TEST(Progress, a_terminal_sees_it_and_the_report_has_it) {
       run_shell("cat > '" + (folder / "run") + "' <<'END'\n" + render + "-r 512x512 -s 128\nEND\n" +
                 "script -qec \"sh '" + (folder / "run") + "'\" /dev/null </dev/null");
   ASSERT_EQ(seen.exit_code, 0) << seen.err;
-  EXPECT_NE(seen.out.find(" left  noise "), std::string::npos) << seen.out;
+  EXPECT_TRUE(has(seen.out, " left  noise "));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/json/object_reader.h"
+#include "tests/support/messages.h"
 
 namespace minkray {
 namespace {
@@ -56,10 +57,10 @@ TEST(ParseJson, text_that_is_not_json_is_told_with_its_line_and_column) {
   EXPECT_EQ(only(std::string_view("{}\n\0", 4)),
             "x: /: not valid JSON at line:column 2:1: a zero byte");
   EXPECT_EQ(only("[1,]").find("x: /1: not valid JSON"), 0u);
-  EXPECT_NE(only("[\"a\xff\"]").find("UTF-8"), std::string::npos);
+  EXPECT_TRUE(has(only("[\"a\xff\"]"), "UTF-8"));
   // Nothing of the broken text reaches the terminal as it is.
-  EXPECT_EQ(only("[\"a\xff\"]").find('\xff'), std::string::npos);
-  EXPECT_EQ(only("[\"\x1b[31m\"]").find('\x1b'), std::string::npos);
+  EXPECT_FALSE(has(only("[\"a\xff\"]"), "\xff"));
+  EXPECT_FALSE(has(only("[\"\x1b[31m\"]"), "\x1b"));
 }
 
 TEST(ParseJson, paths_are_json_pointers) {
@@ -126,7 +127,7 @@ TEST(ParseJson, mistakes_behind_numbers_that_are_not_finite_keep_their_lines_and
   EXPECT_EQ(last("[1e999,\n inf,\n  NaN nan]").find("x: /3: not valid JSON at line:column 3:"), 0u);
   // A part of a word is no number either.
   for (const std::string text : {"[--NaN]", "[1-NaN]", "[NaNs]", "[nan1]", "[1e999x]", "[1.NaN]"})
-    EXPECT_NE(last(text).find("not valid JSON at line:column 1:"), std::string::npos) << text;
+    EXPECT_TRUE(has(last(text), "not valid JSON at line:column 1:")) << text;
 }
 
 }  // namespace

@@ -11,6 +11,8 @@
 #include <limits>
 #include <vector>
 
+#include "tests/renderer/library/errors.h"
+
 namespace {
 
 namespace mk = minkray;
@@ -158,13 +160,10 @@ TEST(LibraryAllHits, an_error_names_the_ray) {
   mk::Scene scene;
   scene.add(mk::sphere(1));
   scene.commit();
-  try {
-    (void)scene.all_hits(mk::Ray{{0, 0, 0}, {0, 0, 0}});
-    FAIL();
-  } catch (const mk::Error& error) {
-    EXPECT_STREQ(error.what(),
-                 "minkray_scene_all_hits: rays[0].direction: must not be zero (got [0, 0, 0])");
-  }
+  EXPECT_EQ(error_of([&] {
+              (void)scene.all_hits(mk::Ray{{0, 0, 0}, {0, 0, 0}});
+            }),
+            "minkray_scene_all_hits: rays[0].direction: must not be zero (got [0, 0, 0])");
 }
 
 TEST(LibraryExit, of_a_mesh_is_the_last_one) {

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/renderer/library/errors.h"
+
 namespace {
 
 namespace mk = minkray;
@@ -21,16 +23,6 @@ mk::Shape open_box() {
       {0, 2, 3}, {0, 3, 1}, {0, 1, 5}, {0, 5, 4}, {2, 6, 7},
       {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
   return mk::mesh(vertices, triangles);
-}
-
-template <class Call>
-std::string error_of(const Call& call) {
-  try {
-    call();
-  } catch (const mk::Error& error) {
-    return error.what();
-  }
-  return "";
 }
 
 TEST(LibraryMesh, is_met_as_it_is) {
@@ -118,10 +110,9 @@ TEST(LibraryMesh, tells_programs_no_more_than_their_structs_have_room_for) {
     minkray_scene_add_file(scene.handle(), "none.urdf", &options, nullptr);
     return std::string(minkray_last_error());
   };
-  EXPECT_EQ(told().find("options.meshes"), std::string::npos);
+  EXPECT_FALSE(has(told(), "options.meshes"));
   options.size = sizeof options;
-  EXPECT_NE(told().find("options.meshes: must be \"hull\" or \"exact\" (got \"neither\")"),
-            std::string::npos);
+  EXPECT_TRUE(has(told(), "options.meshes: must be \"hull\" or \"exact\" (got \"neither\")"));
 }
 
 TEST(LibraryMesh, has_distances_to_its_surface) {
@@ -167,25 +158,17 @@ TEST(LibraryMesh, has_distances_to_its_surface) {
 
 TEST(LibraryMesh, is_refused_where_a_shape_must_be_convex_and_wrong_ones_are) {
   const mk::Shape box = open_box();
-  EXPECT_NE(error_of([&] { mk::rounded(box, 0.1); }).find("must be convex (got a mesh)"),
-            std::string::npos);
-  EXPECT_NE(error_of([&] { box.support({1, 0, 0}); }).find("must be convex"), std::string::npos);
-  EXPECT_NE(error_of([&] { mk::mesh_info(mk::sphere(1)); }).find("must be a mesh"),
-            std::string::npos);
+  EXPECT_TRUE(has(error_of([&] { mk::rounded(box, 0.1); }), "must be convex (got a mesh)"));
+  EXPECT_TRUE(has(error_of([&] { box.support({1, 0, 0}); }), "must be convex"));
+  EXPECT_TRUE(has(error_of([&] { mk::mesh_info(mk::sphere(1)); }), "must be a mesh"));
   const std::vector<mk::Vec3> few = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-  EXPECT_NE(error_of([&] {
-              mk::mesh(few, {0, 1, 3});
-            }).find("triangles[0]: must be numbers of vertices, less than 3 (got 3)"),
-            std::string::npos);
-  EXPECT_NE(error_of([&] {
-              mk::mesh(few, {0, 1});
-            }).find("must be three numbers each"),
-            std::string::npos);
+  EXPECT_TRUE(has(error_of([&] {
+                    mk::mesh(few, {0, 1, 3});
+                  }),
+                  "triangles[0]: must be numbers of vertices, less than 3 (got 3)"));
+  EXPECT_TRUE(has(error_of([&] { mk::mesh(few, {0, 1}); }), "must be three numbers each"));
   const std::vector<mk::Vec3> wrong = {{0, 0, 0}, {1, std::nan(""), 0}, {0, 1, 0}};
-  EXPECT_NE(error_of([&] {
-              mk::mesh(wrong, {0, 1, 2});
-            }).find("vertices[1]: must be finite"),
-            std::string::npos);
+  EXPECT_TRUE(has(error_of([&] { mk::mesh(wrong, {0, 1, 2}); }), "vertices[1]: must be finite"));
 }
 
 }  // namespace

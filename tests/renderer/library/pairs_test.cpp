@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/renderer/library/errors.h"
 #include "tests/renderer/library/shapes.h"
 #include "tests/support/temporary_folder.h"
 
@@ -262,26 +263,20 @@ TEST(LibraryPairs, what_is_wrong_is_told) {
   std::vector<mk::Distance> found(3);
   std::vector<mk::Pose> poses(3);
   const auto text_of = [&](const mk::Bodies& a, const mk::PairOptions& options = {}) {
-    try {
-      mk::signed_distances(a, {{&ball, 1}, {}, {}}, found, options);
-    } catch (const mk::Error& error) {
-      return std::string(error.what());
-    }
-    return std::string();
+    return error_of([&] { mk::signed_distances(a, {{&ball, 1}, {}, {}}, found, options); });
   };
   EXPECT_EQ(text_of({{&ball, 1}, poses, {}}), "");
-  EXPECT_NE(text_of({{&ball, 1}, {poses.data(), 2}, {}}).find("a.poses: must be one, or as many"),
-            std::string::npos);
-  EXPECT_NE(text_of({{}, poses, {}}).find("a.shapes: must be one"), std::string::npos);
+  EXPECT_TRUE(
+      has(text_of({{&ball, 1}, {poses.data(), 2}, {}}), "a.poses: must be one, or as many"));
+  EXPECT_TRUE(has(text_of({{}, poses, {}}), "a.shapes: must be one"));
   poses[1].rows[0][0] = 1.1;
-  EXPECT_NE(text_of({{&ball, 1}, poses, {}}).find("a.poses[1]: must be rigid"), std::string::npos);
+  EXPECT_TRUE(has(text_of({{&ball, 1}, poses, {}}), "a.poses[1]: must be rigid"));
   poses[1].rows[0][0] = std::nan("");
-  EXPECT_NE(text_of({{&ball, 1}, poses, {}}).find("a.poses[1].rows[0][0]"), std::string::npos);
+  EXPECT_TRUE(has(text_of({{&ball, 1}, poses, {}}), "a.poses[1].rows[0][0]"));
   std::vector<mk::PairMemory> memories(2);
   mk::PairOptions options;
   options.memories = memories;
-  EXPECT_NE(text_of({{&ball, 1}, {}, {}}, options).find("memories: must be as many"),
-            std::string::npos);
+  EXPECT_TRUE(has(text_of({{&ball, 1}, {}, {}}, options), "memories: must be as many"));
 }
 
 /// Balls of radius 0.5 at x = 0, 1.2, 2.4.
@@ -413,7 +408,7 @@ TEST_F(SlidingBalls, may_touch_as_a_file_says) {
       folder_.write("wrong.srdf", "<robot><disable_collisions link1='b' link2='c'/></robot>");
   const minkray_scene scene = scene_.handle();
   EXPECT_EQ(minkray_scene_allow_from_srdf(scene, 0, wrong.c_str()), MINKRAY_BAD_INPUT);
-  EXPECT_NE(std::string(minkray_last_error()).find("there is no link \"c\""), std::string::npos);
+  EXPECT_TRUE(has(minkray_last_error(), "there is no link \"c\""));
   EXPECT_EQ(minkray_scene_allow_from_srdf(scene, 0, nullptr), MINKRAY_WRONG_USE);
   EXPECT_EQ(minkray_scene_allow_from_srdf(scene, 5, wrong.c_str()), MINKRAY_WRONG_USE);
 }

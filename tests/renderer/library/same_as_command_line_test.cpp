@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/renderer/library/errors.h"
 #include "tests/renderer/library/rays.h"
 #include "tests/support/program.h"
 #include "tests/support/source_files.h"
@@ -52,8 +53,7 @@ std::size_t compare_rays(const std::string& name, const mk::Vec3& middle, double
     queries << line;
   }
   queries.close();
-  const minkray::ProgramOutcome outcome =
-      minkray::run_shell("$MINKRAY cast " + folder / "queries.jsonl");
+  const minkray::ProgramOutcome outcome = minkray::run_minkray("cast " + folder / "queries.jsonl");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   std::istringstream answers(outcome.out);
   std::string line;
@@ -64,9 +64,7 @@ std::size_t compare_rays(const std::string& name, const mk::Vec3& middle, double
       break;
     }
     const char* names[] = {"hit", "miss", "inside", "exhausted"};
-    EXPECT_NE(line.find("\"status\":\"" + std::string(names[hits[i].status]) + "\""),
-              std::string::npos)
-        << line;
+    EXPECT_TRUE(has(line, "\"status\":\"" + std::string(names[hits[i].status]) + "\""));
     if (!hits[i].found()) continue;
     ++met;
     EXPECT_EQ(hits[i].t, number_after(line, "t")) << line;

@@ -12,23 +12,13 @@
 #include <thread>
 #include <vector>
 
+#include "tests/renderer/library/errors.h"
 #include "tests/renderer/library/rays.h"
 #include "tests/renderer/library/shapes.h"
 
 namespace {
 
 namespace mk = minkray;
-
-template <class Work>
-std::string error_of(Work&& work) {
-  try {
-    work();
-  } catch (const mk::Error& error) {
-    EXPECT_EQ(error.code(), MINKRAY_WRONG_USE) << error.what();
-    return error.what();
-  }
-  return "no error";
-}
 
 constexpr const char* in_use = "must not be changed or released while another call uses it";
 
@@ -71,8 +61,7 @@ TEST(SceneUse, a_progress_callback_cannot_change_the_scene) {
     };
     scene.cast(rays, hits, options);
     ASSERT_EQ(told.errors.size(), 7u);
-    for (const std::string& error : told.errors)
-      EXPECT_NE(error.find(in_use), std::string::npos) << error;
+    for (const std::string& error : told.errors) EXPECT_TRUE(has(error, in_use));
     EXPECT_EQ(scene.size(), size);
     for (std::size_t i = 0; i < rays.size(); ++i) EXPECT_EQ(hits[i].t, alone[i].t);
   }
@@ -176,9 +165,7 @@ TEST(SceneUse, a_support_function_cannot_query_what_it_is_part_of) {
   EXPECT_NEAR(hit.t, 7.5, 1e-9);
   ASSERT_EQ(CallsBack::errors.size(), 5u);
   for (const std::string& error : CallsBack::errors)
-    EXPECT_NE(error.find("must not be queried from within its own support function"),
-              std::string::npos)
-        << error;
+    EXPECT_TRUE(has(error, "must not be queried from within its own support function"));
 }
 
 TEST(SceneUse, names_stay_where_they_are_as_long_as_the_scene) {

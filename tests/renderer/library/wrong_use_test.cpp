@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "tests/renderer/library/errors.h"
 #include "tests/support/source_files.h"
 
 namespace {
@@ -19,8 +20,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 /// The call failed with that code and message.
 void expect_error(int code, int expected, const std::string& text) {
   EXPECT_EQ(code, expected);
-  EXPECT_NE(std::string(minkray_last_error()).find(text), std::string::npos)
-      << minkray_last_error();
+  EXPECT_TRUE(has(minkray_last_error(), text));
 }
 
 minkray_shape ball(double radius = 1) {

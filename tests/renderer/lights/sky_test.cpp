@@ -10,6 +10,7 @@
 #include "renderer/surfaces/reflection.h"
 #include "tests/support/density.h"
 #include "tests/support/must_hold.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -68,7 +69,7 @@ std::pair<double, double> floor_under(const Scene& scene, int samples, std::uint
 Scene floor_scene(const Light& light) {
   Scene scene;
   scene.materials = {{"white", LambertMaterial{Colour::Ones()}}};
-  scene.objects = {{"floor", Box{{5, 5, 1}}, {Mat3<double>::Identity(), {0, 0, -1}}, 0}};
+  scene.objects = {{"floor", Box{{5, 5, 1}}, shifted_by(0, 0, -1), 0}};
   scene.lights = {light};
   return scene;
 }

@@ -8,6 +8,7 @@
 #include "renderer/json/parse.h"
 #include "renderer/query/query_json.h"
 #include "renderer/scene_json/scene_json.h"
+#include "tests/support/messages.h"
 
 namespace minkray {
 namespace {
@@ -125,7 +126,7 @@ TEST(ShapeJson, singular_maps_are_refused_and_merely_thin_ones_are_not) {
        {R"("scale": 0})", R"("scale": [1, 0, 1]})", R"("matrix": [[0,0,0],[0,1,0],[0,0,1]]})",
         R"("matrix": [[1,2,3],[4,5,6],[7,8,9]]})", R"("scale": 1e-320})",
         R"("matrix": [[0.1,0.2,0.3],[0.7,0.1,0.4],[0.8,0.3,0.7]]})"}) {
-    EXPECT_NE(complaint(start + map).find("/"), std::string::npos) << map;
+    EXPECT_TRUE(has(complaint(start + map), "/")) << map;
   }
   good_shape(start + R"("scale": [1, 1e-12, 1], "rotate": [1, 2, 3, 4]})");
   good_shape(start + R"("scale": [-1, 1, 1]})");
@@ -141,7 +142,7 @@ TEST(ShapeJson, nesting_without_end_is_refused) {
   good_shape(text);
   text = R"({"type": "rounded", "radius": 0, "shape": )" + text + "}";
   const std::string message = complaint(text);
-  EXPECT_NE(message.find("must not be nested more than 256 levels deep"), std::string::npos);
+  EXPECT_TRUE(has(message, "must not be nested more than 256 levels deep"));
   EXPECT_LT(message.size(), 300u);
   EXPECT_FALSE(complaint(std::string(1000000, '[')).empty());
 }
@@ -174,7 +175,7 @@ TEST(ShapeJson, ten_thousand_levels_of_any_operator_are_refused_in_scenes_and_qu
     for (const Mistakes* mistakes : {&in_scene, &in_query}) {
       ASSERT_EQ(mistakes->messages().size(), 1u);
       const std::string& message = mistakes->messages()[0];
-      EXPECT_NE(message.find("must not be nested more than 256 levels deep"), std::string::npos);
+      EXPECT_TRUE(has(message, "must not be nested more than 256 levels deep"));
       EXPECT_LT(message.size(), 300u) << message;
     }
   }

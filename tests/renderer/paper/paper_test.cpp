@@ -5,6 +5,8 @@
 #include "renderer/paper/claim.h"
 #include "renderer/paper/panels.h"
 #include "renderer/paper/trace_picture.h"
+#include "tests/support/messages.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -19,8 +21,7 @@ std::size_t count(const std::string& text, const std::string& part) {
 TEST(Panels, show_every_iteration_of_a_real_run_with_its_discarded_vertices) {
   const Shape polygon = Hull{PointCloud(
       {Vec3<double>(1, 0.2, 0), {2, -1, 0}, {4, 0, 0}, {4, 2, 0}, {2.5, 3, 0}, {1.2, 2, 0}})};
-  const Shape disk =
-      Transform{Nested(Disk{0.5}), Affine<double>{Mat3<double>::Identity(), {-1, -1, 0}}};
+  const Shape disk = Transform{Nested(Disk{0.5}), shifted_by(-1, -1, 0)};
   DistanceResult<double, 2> result;
   const std::string svg = distance_panels_svg(polygon, disk, SubalgorithmKind::projection, result);
   EXPECT_EQ(result.status, DistanceStatus::separated);
@@ -28,22 +29,21 @@ TEST(Panels, show_every_iteration_of_a_real_run_with_its_discarded_vertices) {
   EXPECT_NEAR(result.distance, Vec3<double>(2, 1.2, 0).norm() - 0.5, 1e-14);
   EXPECT_EQ(count(svg, "k = "), static_cast<std::size_t>(result.iterations));
   EXPECT_EQ(count(svg, "<g "), count(svg, "</g>"));
-  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_FALSE(has(svg, "nan"));
 }
 
 TEST(Trace, tables_and_pictures_have_a_line_for_each_iteration) {
   const PreparedShape shape(Shape(Cone{0.7, 0.5}));
-  CastOptions options;
-  options.solver = SolverKind::paper;
+  const CastOptions options{SolverKind::paper};
   const CastTrace trace = trace_ray(shape, {{-3, 0.2, 0.1}, {1, 0.01, -0.02}}, options);
   ASSERT_EQ(trace.result.status, Status::hit);
   ASSERT_EQ(trace.iterations.size(), static_cast<std::size_t>(trace.result.iterations));
   const std::string table = trace_table(trace);
   EXPECT_EQ(count(table.substr(0, table.find("k: iteration")), "\n"), trace.iterations.size() + 1);
-  EXPECT_NE(table.find("t_lo, t_hi: bounds of t"), std::string::npos);  // a legend
+  EXPECT_TRUE(has(table, "t_lo, t_hi: bounds of t"));  // a legend
   const std::string svg = trace_svg(trace, shape);
   EXPECT_EQ(count(svg, ">p"), trace.iterations.size());
-  EXPECT_EQ(svg.find("nan,"), std::string::npos);
+  EXPECT_FALSE(has(svg, "nan,"));
   // The bounds close in on the hit from both sides.
   for (const auto& step : trace.iterations) {
     EXPECT_LE(trace.t(step.lower), trace.result.t() + 1e-14);
@@ -57,7 +57,7 @@ TEST(Paper, a_spheres_iterations_are_a_line_in_the_tolerances_logarithm) {
   const ClaimResult result = sphere_iterations(options);
   EXPECT_EQ(result.verdict.rfind("confirmed", 0), 0u) << result.verdict;
   ASSERT_EQ(result.plots.size(), 1u);
-  EXPECT_NE(plot_svg(result.plots[0]).find("</svg>"), std::string::npos);
+  EXPECT_TRUE(has(plot_svg(result.plots[0]), "</svg>"));
 }
 
 TEST(Paper, caching_the_separating_axis_saves_iterations) {

@@ -7,6 +7,7 @@
 
 #include "renderer/film/render.h"
 #include "renderer/rays/camera.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -22,7 +23,7 @@ Scene two_balls() {
                      {"shiny", GlossyMaterial{{0.2, 0.3, 0.7}, 0.2, 1.5}}};
   const auto add = [&](const char* name, Shape shape, const Vec3<double>& at,
                        std::uint32_t material) {
-    scene.objects.push_back({name, std::move(shape), {Mat3<double>::Identity(), at}, material});
+    scene.objects.push_back({name, std::move(shape), shifted_by(at), material});
   };
   add("floor", Box{{5, 5, 1}}, {0, 0, -2}, 0);
   add("near", Sphere{0.7}, {-0.8, -1, 0}, 1);

@@ -11,6 +11,7 @@
 #include "renderer/rays/camera.h"
 #include "renderer/surfaces/dielectric_bsdf.h"
 #include "tests/support/must_hold.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 constexpr double albedo = 0.8;
 
 Object object(Shape shape, const Vec3<double>& at, std::uint32_t material) {
-  return {"", std::move(shape), {Mat3<double>::Identity(), at}, material};
+  return {"", std::move(shape), shifted_by(at), material};
 }
 
 /// A matt floor, its top at z = 0, and a lamp of radiance 1 above it.

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <functional>
 #include <numbers>
 
 #include "renderer/base/errors.h"
@@ -12,6 +11,7 @@
 #include "renderer/plan/trajectory.h"
 #include "renderer/plan/workcell.h"
 #include "tests/renderer/import/imports.h"
+#include "tests/support/messages.h"
 
 namespace minkray {
 namespace {
@@ -107,19 +107,8 @@ TEST(Trajectories, a_request_goes_straight_from_its_start_to_its_goal) {
   EXPECT_EQ(path.values[1][1][0], 0.25);
 }
 
-/// An input, and what its message must contain.
-using Told = std::pair<std::string, std::string>;
-
-void expect_told(const std::function<std::string(const std::string&)>& message_of,
-                 const std::vector<Told>& table) {
-  for (const auto& [input, part] : table)
-    EXPECT_NE(message_of(input).find(part), std::string::npos) << part << " in\n"
-                                                               << message_of(input) << "\nof\n"
-                                                               << input;
-}
-
 TEST(Trajectories, mistakes_have_their_line_and_key) {
-  expect_told(
+  expect_messages(
       mistakes_of_plan,
       {{"joint_trajectory:\n  joint_names: [turn, lift]\n  points:\n    - positions: [0, 1]\n",
         "plan.yaml: line 2: /joint_trajectory/joint_names/1: there is no joint \"lift\""},
@@ -139,7 +128,7 @@ TEST(Trajectories, mistakes_have_their_line_and_key) {
 /// "velocites" read as no velocities, and a cubic as a straight line.
 TEST(Trajectories, misspelt_keys_are_mistakes_and_unknown_ones_are_not) {
   const std::string begin = "joint_names: [turn]\npoints:\n";
-  expect_told(
+  expect_messages(
       mistakes_of_plan,
       {{begin + "  - postions: [0]\n",
         "plan.yaml: line 3: /points/0/postions: unknown key (did you mean \"positions\"?)"},
@@ -160,7 +149,7 @@ TEST(Trajectories, velocities_without_times_are_noted) {
       "joint_names: [turn]\npoints: [{positions: [0], velocities: [1]}, {positions: [1]}]\n",
       robot_model());
   ASSERT_EQ(read.notes.size(), 1u);
-  EXPECT_NE(read.notes[0].find("velocities are ignored"), std::string::npos);
+  EXPECT_TRUE(has(read.notes[0], "velocities are ignored"));
 }
 
 TEST(Trajectories, hostile_yaml_is_refused) {
@@ -203,7 +192,7 @@ TEST(Trajectories, continuous_joints_go_the_shorter_way_round) {
   const JointPath path = path_of(read, model, {});
   EXPECT_NEAR(path.values[1][0][0], -3 + 2 * std::numbers::pi, 1e-15);
   ASSERT_EQ(read.notes.size(), 1u);
-  EXPECT_NE(read.notes[0].find("shorter way"), std::string::npos);
+  EXPECT_TRUE(has(read.notes[0], "shorter way"));
 }
 
 PlanningScene scene_of_text(const std::string& text, const Model& model, Mistakes& mistakes) {
@@ -337,7 +326,7 @@ TEST(PlanningScenes, what_is_wrong_is_told_with_its_line) {
   };
   const std::string world = "world:\n  collision_objects:\n    - id: x\n      primitives:\n";
   const std::string ball = "primitives: [{type: sphere, dimensions: [1]}]";
-  expect_told(
+  expect_messages(
       wrong, {{world + "        - {type: bxo, dimensions: [1, 1, 1]}\n",
                "scene.yaml: line 5: /world/collision_objects/0/primitives/0/type: must be box (1)"},
               {world + "        - {type: box, dimensions: [1, 1]}\n",
@@ -376,7 +365,7 @@ TEST(RobotMeaning, groups_states_and_virtual_joints) {
   EXPECT_EQ(home->values[0].second[0], 0.5);
   EXPECT_TRUE(find_joint(model, "roam"));
   EXPECT_FALSE(find_state(meaning, "hme", mistakes));
-  EXPECT_NE(mistakes.text().find("did you mean \"home\"?"), std::string::npos);
+  EXPECT_TRUE(has(mistakes.text(), "did you mean \"home\"?"));
 }
 
 }  // namespace

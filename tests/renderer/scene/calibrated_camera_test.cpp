@@ -10,7 +10,7 @@
 #include "renderer/base/errors.h"
 #include "renderer/json/json.h"
 #include "renderer/sensor/sensor_rays.h"
-#include "tests/support/program.h"
+#include "tests/support/expect_exit.h"
 #include "tests/support/random.h"
 #include "tests/support/source_files.h"
 
@@ -137,16 +137,11 @@ TEST(CalibratedCameras, are_read_with_all_mistakes_told) {
   EXPECT_EQ(camera.numbers().k[0], 0.1);
   EXPECT_EQ(camera.numbers().p2, 0.2);
   EXPECT_EQ(camera.numbers().row_time, 1e-5);
-  try {
-    parse_calibrated_camera(
-        "{" + rest + R"(, "model": "fisheye", "p1": 0, "k5": 1, "row_time": -1})", "k.json");
-    FAIL();
-  } catch (const BadInput& error) {
-    const std::string text = error.what();
-    for (const char* part : {"k.json: /p1: unknown key", "k.json: /k5: unknown key",
-                             "k.json: /row_time: must be >= 0"})
-      EXPECT_NE(text.find(part), std::string::npos) << text;
-  }
+  const std::string text =
+      "{" + rest + R"(, "model": "fisheye", "p1": 0, "k5": 1, "row_time": -1})";
+  expect_parts(
+      message_of<BadInput>([&] { parse_calibrated_camera(text, "k.json"); }),
+      {"k.json: /p1: unknown key", "k.json: /k5: unknown key", "k.json: /row_time: must be >= 0"});
   EXPECT_THROW(parse_calibrated_camera("{" + rest + R"(, "model": "ball"})", "k.json"), BadInput);
 }
 
@@ -163,7 +158,7 @@ TEST(CalibratedCameras, trace_and_inspect_cast_their_rays) {
   const std::string words = folder / "s.json" + " --camera-file " + folder / "k.json";
   const Vec3<double> seen =
       unit(*read_calibrated_camera(folder / "k.json").direction(51, 24));  // x right, y down
-  const ProgramOutcome traced = run_shell("$MINKRAY trace " + words + " --pixel 51,24 --json");
+  const ProgramOutcome traced = run_minkray("trace " + words + " --pixel 51,24 --json");
   ASSERT_EQ(traced.exit_code, 0) << traced.err;
   const Json json = Json::parse(traced.out);
   const Vec3<double> in_world(seen.x(), seen.z(), -seen.y());
@@ -171,16 +166,13 @@ TEST(CalibratedCameras, trace_and_inspect_cast_their_rays) {
     EXPECT_NEAR(json.at("direction")[std::size_t(i)].get<double>(), in_world[i], 1e-15);
   EXPECT_EQ(json.at("object").get<std::string>(), "aside");
   EXPECT_EQ(json.at("status").get<std::string>(), "hit");
-  const ProgramOutcome beyond = run_shell("$MINKRAY trace " + words + " --pixel 64,24");
-  EXPECT_EQ(beyond.exit_code, 2);
-  EXPECT_NE(beyond.err.find("63,47"), std::string::npos) << beyond.err;
+  expect_exit(2, run_minkray("trace " + words + " --pixel 64,24"), {"63,47"});
 
   const std::string page = folder / "p.html";
-  const ProgramOutcome inspected = run_shell("$MINKRAY inspect " + words + " -s 1 -q -o " + page);
+  const ProgramOutcome inspected = run_minkray("inspect " + words + " -s 1 -q -o " + page);
   ASSERT_EQ(inspected.exit_code, 0) << inspected.err;
   const std::string html = text_of_file(page);
-  EXPECT_NE(html.find("\"resolution\":[64,48]"), std::string::npos);
-  EXPECT_NE(html.find("\"names\":{\"1\":\"ahead\",\"2\":\"aside\"}"), std::string::npos);
+  expect_parts(html, {"\"resolution\":[64,48]", "\"names\":{\"1\":\"ahead\",\"2\":\"aside\"}"});
 }
 
 }  // namespace

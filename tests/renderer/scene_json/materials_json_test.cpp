@@ -12,6 +12,7 @@
 #include "renderer/io/read_image.h"
 #include "renderer/scene_json/scene_json.h"
 #include "renderer/scene_json/write_scene.h"
+#include "tests/support/messages.h"
 #include "tests/support/must_hold.h"
 #include "tests/support/program.h"
 
@@ -92,12 +93,7 @@ TEST_F(Pictures, all_mistakes_of_materials_are_told_at_once) {
   EXPECT_EQ(found.size(), places.size());
   tell_figure("mistakes_of_materials_told_at_once", static_cast<double>(found.size()),
               "== " + std::to_string(places.size()));
-  for (const std::string& place : places)
-    EXPECT_TRUE(std::any_of(
-        found.begin(), found.end(),
-        [&](const std::string& message) { return message.find(place) != std::string::npos; }))
-        << place << "\n"
-        << ::testing::PrintToString(found);
+  for (const std::string& place : places) EXPECT_TRUE(has(in_lines(found), place));
 }
 
 TEST_F(Pictures, reliefs_are_textures) {
@@ -105,8 +101,8 @@ TEST_F(Pictures, reliefs_are_textures) {
       R"({"name": "m", "type": "lambert", "color": [1, 1, 1], "bump": [1, 1, 1],
           "normal_map": {"type": "checker"}})"));
   ASSERT_EQ(found.size(), 2u) << ::testing::PrintToString(found);
-  EXPECT_NE(found[0].find("/materials/0/bump: must be a texture"), std::string::npos);
-  EXPECT_NE(found[1].find("/materials/0/normal_map: must be a texture of type"), std::string::npos);
+  EXPECT_TRUE(has(found[0], "/materials/0/bump: must be a texture"));
+  EXPECT_TRUE(has(found[1], "/materials/0/normal_map: must be a texture of type"));
 }
 
 TEST_F(Pictures, numbers_that_are_none_are_refused) {
@@ -145,40 +141,27 @@ TEST_F(Pictures, skies_and_lenses_are_checked) {
     const auto found = complaints(scene(matt, lights, camera));
     return found.size() == 1 ? found[0] : ::testing::PrintToString(found);
   };
-  EXPECT_NE(one(R"({"type": "sun_sky", "sun": [1, 0, -0.1]})", "").find("above the horizon"),
-            std::string::npos);
-  EXPECT_NE(one("", R"(, "focus_on": "bell")").find("did you mean \"ball\"?"), std::string::npos);
-  EXPECT_NE(one("", R"(, "focus_on": "ball", "focus_distance": 3)").find("got both"),
-            std::string::npos);
-  EXPECT_NE(one("", R"(, "type": "fisheye", "aperture": 1)").find("/camera/aperture"),
-            std::string::npos);
-  EXPECT_NE(one("", R"(, "blades": 2)").find("/camera/blades: must be 0 or a whole number from 3"),
-            std::string::npos);
-  EXPECT_NE(one("", R"(, "fov_y_degrees": 180)").find("must be > 0 and < 180 (got 180)"),
-            std::string::npos);
-  EXPECT_NE(one("", R"(, "type": "fisheye", "fov_y_degrees": 361)").find("<= 360 (got 361)"),
-            std::string::npos);
+  expect_messages([&](const std::string& keys) { return one("", keys); },
+                  {{R"(, "focus_on": "bell")", "did you mean \"ball\"?"},
+                   {R"(, "focus_on": "ball", "focus_distance": 3)", "got both"},
+                   {R"(, "type": "fisheye", "aperture": 1)", "/camera/aperture"},
+                   {R"(, "type": "fish")", "the name of a camera"},
+                   {R"(, "blades": 2)", "/camera/blades: must be 0 or a whole number from 3"},
+                   {R"(, "fov_y_degrees": 180)", "must be > 0 and < 180 (got 180)"},
+                   {R"(, "type": "fisheye", "fov_y_degrees": 361)", "<= 360 (got 361)"}});
   EXPECT_TRUE(complaints(scene(matt, "", R"(, "type": "fisheye", "fov_y_degrees": 220)")).empty());
-  const auto day = [&](const char* keys) {
-    return one(std::string(R"({"type": "sun_sky")") + keys + "}", "");
-  };
-  EXPECT_NE(day("").find("must have either \"sun\" or all of \"time\""), std::string::npos);
-  EXPECT_NE(day(R"(, "sun": [0, 0, 1], "time": "2026-06-21T12:00Z")").find("either"),
-            std::string::npos);
-  EXPECT_NE(day(R"(, "time": "2026-06-21T12:00Z", "latitude_degrees": 51)").find("either"),
-            std::string::npos);
-  const std::string place = R"(, "latitude_degrees": 51, "longitude_degrees": 0)";
-  EXPECT_NE(day((R"(, "time": "noon")" + place).c_str()).find("/lights/0/time: must be a time"),
-            std::string::npos);
-  EXPECT_NE(day((R"(, "time": "2026-06-21T00:00Z")" + place).c_str()).find("below the horizon"),
-            std::string::npos);
-  EXPECT_TRUE(
-      complaints(scene(matt, R"({"type": "sun_sky", "time": "2026-06-21T12:00Z")" + place + "}"))
-          .empty());
-  EXPECT_NE(one("", R"(, "type": "fish")").find("the name of a camera"), std::string::npos);
+  const std::string place = R"(, "latitude_degrees": 51, "longitude_degrees": 0)",
+                    day = R"("type": "sun_sky")", noon = R"(, "time": "2026-06-21T12:00Z")";
   // A plain environment must still have both colours.
-  EXPECT_NE(one(R"({"type": "environment", "zenith": [1, 1, 1]})", "").find("/lights/0/nadir"),
-            std::string::npos);
+  expect_messages([&](const std::string& keys) { return one("{" + keys + "}", ""); },
+                  {{day + R"(, "sun": [1, 0, -0.1])", "above the horizon"},
+                   {day, "must have either \"sun\" or all of \"time\""},
+                   {day + R"(, "sun": [0, 0, 1])" + noon, "either"},
+                   {day + noon + R"(, "latitude_degrees": 51)", "either"},
+                   {day + R"(, "time": "noon")" + place, "/lights/0/time: must be a time"},
+                   {day + R"(, "time": "2026-06-21T00:00Z")" + place, "below the horizon"},
+                   {R"("type": "environment", "zenith": [1, 1, 1])", "/lights/0/nadir"}});
+  EXPECT_TRUE(complaints(scene(matt, "{" + day + noon + place + "}")).empty());
 }
 
 TEST_F(Pictures, what_is_written_is_read_as_the_same) {
@@ -232,7 +215,7 @@ TEST_F(Pictures, of_20000_pixels_a_side_and_of_16_bits_in_grey_are_read_or_told)
          {"name": "n", "type": "glossy", "color": {"type": "image", "file": "none.png"}, "roughness": -1},
          {"name": "o", "type": "conductor", "metal": "gold", "roughness": 7})"));
   ASSERT_EQ(told.size(), 4u);
-  EXPECT_NE(told[0].find("must have at most 2^27 pixels (got 20000 x 20000)"), std::string::npos);
+  EXPECT_TRUE(has(told[0], "must have at most 2^27 pixels (got 20000 x 20000)"));
 }
 
 TEST_F(Pictures, numbers_of_pictures_are_linear) {
@@ -261,12 +244,7 @@ TEST_F(Pictures, of_no_pixels_or_beyond_all_brightness_are_refused) {
         {"-Y 1 +X 1\n\xff\xff\xff\xb4", "must hold finite numbers from 0 to 1e15"}}) {
     const std::string hdr = header + rest;
     write("bad.hdr", {hdr.begin(), hdr.end()});
-    try {
-      read_image(folder_ / "bad.hdr");
-      ADD_FAILURE() << what;
-    } catch (const std::exception& error) {
-      EXPECT_NE(std::string(error.what()).find(what), std::string::npos) << error.what();
-    }
+    EXPECT_TRUE(has(message_of<std::exception>([&] { read_image(folder_ / "bad.hdr"); }), what));
   }
 }
 

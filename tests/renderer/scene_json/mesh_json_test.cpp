@@ -10,6 +10,7 @@
 #include "renderer/scene/summary.h"
 #include "renderer/scene_json/scene_json.h"
 #include "renderer/scene_json/write_scene.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
 namespace minkray {
@@ -83,7 +84,7 @@ TEST_F(MeshJson, terrains_are_read_of_heights_and_pictures) {
            {R"("height_field": {"file": "gone.png", "size": [4, 1, 1]})", "gone.png"},
            {R"("height_field": {"heights": [[0, 1], [1, 2]], "size": [4, 1]}, "shape": 1)",
             "together"}})
-    EXPECT_NE(wrong(object).find(message), std::string::npos) << mistakes_.text();
+    EXPECT_TRUE(has(wrong(object), message)) << mistakes_.text();
 }
 
 TEST_F(MeshJson, planes_of_one_side_are_written_and_read_again) {
@@ -106,10 +107,9 @@ TEST_F(MeshJson, planes_of_one_side_are_written_and_read_again) {
     EXPECT_TRUE(met(1));
     EXPECT_FALSE(met(-1));
   }
-  EXPECT_NE(wrong(R"("mesh": {"vertices": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 1]],
-      "triangles": [[0, 1, 2], [0, 2, 3]], "sides": "front"})")
-                .find("one plane"),
-            std::string::npos);
+  EXPECT_TRUE(has(wrong(R"("mesh": {"vertices": [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 1]],
+      "triangles": [[0, 1, 2], [0, 2, 3]], "sides": "front"})"),
+                  "one plane"));
 }
 
 TEST_F(MeshJson, are_written_and_read_again) {
@@ -130,8 +130,8 @@ TEST_F(MeshJson, tell_what_is_wrong) {
             "s.json: /objects/0/shape: not allowed together with \"mesh\"");
   EXPECT_EQ(wrong(R"("mesh": {"file": "two.obj", "scale": 0})"),
             "s.json: /objects/0/mesh/scale: must be > 0 (got 0)");
-  EXPECT_NE(wrong(R"("mesh": {"file": "points.obj"})").find("must have faces"), std::string::npos);
-  EXPECT_NE(wrong(R"("mesh": {"file": "none.obj"})").find("none.obj"), std::string::npos);
+  EXPECT_TRUE(has(wrong(R"("mesh": {"file": "points.obj"})"), "must have faces"));
+  EXPECT_TRUE(has(wrong(R"("mesh": {"file": "none.obj"})"), "none.obj"));
   const std::string vertices = R"("mesh": {"vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0]])";
   EXPECT_EQ(wrong(vertices + "}"),
             "s.json: /objects/0/mesh/triangles: missing: must be a list of three numbers of "

@@ -9,6 +9,7 @@
 #include "renderer/io/png.h"
 #include "renderer/scene_json/scene_json.h"
 #include "renderer/scene_json/write_scene.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
 namespace minkray {
@@ -81,17 +82,16 @@ TEST_F(MeshLookJson, an_object_s_material_comes_first_and_names_stand_for_others
   ASSERT_TRUE(scene) << mistakes_.text();
   EXPECT_EQ(scene->objects[0].look->materials[0], 0u);
   EXPECT_EQ(scene->objects[0].look->materials[1], MeshAttributes::none);
-  EXPECT_NE(wrong(R"("mesh": {"file": "two.obj", "materials": {"rad": "grey"}})")
-                .find("/objects/0/mesh/materials/rad: must be a material of the file; did you mean "
-                      "\"red\"?"),
-            std::string::npos)
+  EXPECT_TRUE(has(wrong(R"("mesh": {"file": "two.obj", "materials": {"rad": "grey"}})"),
+                  "/objects/0/mesh/materials/rad: must be a material of the file; did you mean "
+                  "\"red\"?"))
       << mistakes_.text();
 }
 
 TEST_F(MeshLookJson, pictures_of_a_file_matter_only_where_they_are_shown) {
   std::ofstream(folder_ / "two.mtl") << "newmtl wood\nmap_Kd nowhere.png\n";
   EXPECT_TRUE(read(R"("mesh": {"file": "two.obj"}, "color": [1, 0, 0])")) << mistakes_.text();
-  EXPECT_NE(wrong(R"("mesh": {"file": "two.obj"})").find("nowhere.png"), std::string::npos);
+  EXPECT_TRUE(has(wrong(R"("mesh": {"file": "two.obj"})"), "nowhere.png"));
 }
 
 TEST_F(MeshLookJson, arrays_are_read_and_written_again) {
@@ -156,7 +156,7 @@ TEST_F(MeshLookJson, mistakes_are_told_with_their_place) {
        "must be a mesh with texture coordinates"},
   };
   for (const auto& [object, message] : cases)
-    EXPECT_NE(wrong(object).find(message), std::string::npos) << object << "\n" << mistakes_.text();
+    EXPECT_TRUE(has(wrong(object), message)) << object << "\n" << mistakes_.text();
 }
 
 }  // namespace

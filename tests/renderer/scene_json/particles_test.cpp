@@ -51,8 +51,12 @@ class Particles : public ::testing::Test {
     std::ofstream(folder_ / name, std::ios::binary) << bytes;
   }
   template <class Number>
+  static std::string bytes_of(const std::vector<Number>& numbers) {
+    return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)};
+  }
+  template <class Number>
   void write_numbers(const std::string& name, const std::vector<Number>& numbers) {
-    write(name, {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)});
+    write(name, bytes_of(numbers));
   }
 
   TemporaryFolder folder_;
@@ -130,73 +134,65 @@ TEST_F(Particles, long_files_are_read_as_short_ones) {
 }
 
 TEST_F(Particles, mistakes_are_told_with_file_and_row) {
-  const std::string material = R"("material": "red", )";
-  const auto with_file = [&](const std::string& file, const std::string& more = "") {
-    return complaint(std::string(box) + ", " + material + more + "\"file\": \"" + file + "\"");
+  struct Row {
+    std::string file, bytes, keys, message;
+  };
+  const Row rows[] = {
+      {"empty.f64", "", "", "must hold at least one row (got none)"},
+      {"short.f64", bytes_of<double>({1, 2, 3, 4}), "",
+       "row 2: is truncated (got 8 of its 24 bytes)"},
+      {"two.f64", bytes_of<double>({1, 2, 3, 4, 5, 6}), "\"count\": 3, ",
+       "must hold 3 rows, as \"count\" says (got 2)"},
+      {"nan.f32", bytes_of<float>({1, 2, 3, 4, NAN, 6}), "",
+       "row 2: position must be finite (got 4 nan 6)"},
+      {"zero.f64", bytes_of<double>({1, 2, 3, 0, 0, 0, 0}),
+       R"("columns": ["position", "rotation"], )",
+       "row 1: rotation must not be zero (got 0 0 0 0)"},
+      {"flat.csv", "1 2 3 1\n# a comment\n1 2 3 0\n", R"("columns": ["position", "scale"], )",
+       "line 3: scale must not be zero, nor beyond 1e-100 to 1e100 (got 0)"},
+      {"head.csv", "x,y,z\n1,2,3\n", "",
+       "line 1: position must be a number that a double can hold (got \"x\"); lines of other text "
+       "begin with #"},
+      {"few.csv", "1,2,3\n1,2\n", "", "line 2: must hold 3 numbers (got 2)"},
+      {"many.csv", "1,2,3,4\n", "", "line 1: must hold 3 numbers (got more)"},
+      {"infinite.csv", "1,2,inf\n", "", "line 1: position must be finite (got 1 2 inf)"},
+      {"long.csv", std::string(3 << 20, '1'), "", "line 1: must not be longer than 65536 bytes"}};
+  const auto told = [&](const std::string& file, const std::string& keys = "") {
+    return complaint(std::string(box) + R"(, "material": "red", )" + keys + "\"file\": \"" + file +
+                     "\"");
   };
   const std::string at = "x.json: /particles/0/file: ";
-  const std::string turned = R"("columns": ["position", "rotation"], )";
-
-  EXPECT_EQ(with_file("none.csv"), at + "none.csv: cannot be read: No such file or directory");
-  EXPECT_EQ(with_file("p.txt"), at + "p.txt: its name must end in .csv, .f32 or .f64");
-  write("empty.f64", "");
-  EXPECT_EQ(with_file("empty.f64"), at + "empty.f64: must hold at least one row (got none)");
-  write_numbers("short.f64", std::vector<double>{1, 2, 3, 4});
-  EXPECT_EQ(with_file("short.f64"), at + "short.f64: row 2: is truncated (got 8 of its 24 bytes)");
-  write_numbers("two.f64", std::vector<double>{1, 2, 3, 4, 5, 6});
-  EXPECT_EQ(with_file("two.f64", "\"count\": 3, "),
-            at + "two.f64: must hold 3 rows, as \"count\" says (got 2)");
-  write_numbers("nan.f32", std::vector<float>{1, 2, 3, 4, NAN, 6});
-  EXPECT_EQ(with_file("nan.f32"), at + "nan.f32: row 2: position must be finite (got 4 nan 6)");
-  write_numbers("zero.f64", std::vector<double>{1, 2, 3, 0, 0, 0, 0});
-  EXPECT_EQ(with_file("zero.f64", turned),
-            at + "zero.f64: row 1: rotation must not be zero (got 0 0 0 0)");
-  write("flat.csv", "1 2 3 1\n# a comment\n1 2 3 0\n");
-  EXPECT_EQ(with_file("flat.csv", R"("columns": ["position", "scale"], )"),
-            at + "flat.csv: line 3: scale must not be zero, nor beyond 1e-100 to 1e100 (got 0)");
-  write("head.csv", "x,y,z\n1,2,3\n");
-  EXPECT_EQ(with_file("head.csv"),
-            at + "head.csv: line 1: position must be a number that a double can hold (got "
-                 "\"x\"); lines of other text begin with #");
-  write("few.csv", "1,2,3\n1,2\n");
-  EXPECT_EQ(with_file("few.csv"), at + "few.csv: line 2: must hold 3 numbers (got 2)");
-  write("many.csv", "1,2,3,4\n");
-  EXPECT_EQ(with_file("many.csv"), at + "many.csv: line 1: must hold 3 numbers (got more)");
-  write("infinite.csv", "1,2,inf\n");
-  EXPECT_EQ(with_file("infinite.csv"),
-            at + "infinite.csv: line 1: position must be finite (got 1 2 inf)");
-  write("long.csv", std::string(3 << 20, '1'));
-  EXPECT_EQ(with_file("long.csv"), at + "long.csv: line 1: must not be longer than 65536 bytes");
-  EXPECT_EQ(with_file("../"), at + "../: its name must end in .csv, .f32 or .f64");
+  for (const auto& [file, bytes, keys, message] : rows) {
+    write(file, bytes);
+    EXPECT_EQ(told(file, keys), at + file + ": " + message);
+  }
+  EXPECT_EQ(told("none.csv"), at + "none.csv: cannot be read: No such file or directory");
+  for (const std::string file : {"p.txt", "../"})
+    EXPECT_EQ(told(file), at + file + ": its name must end in .csv, .f32 or .f64");
   std::filesystem::create_directory(folder_ / "folder.csv");
-  EXPECT_EQ(with_file("folder.csv"), at + "folder.csv: must be a file (got a directory)");
+  EXPECT_EQ(told("folder.csv"), at + "folder.csv: must be a file (got a directory)");
 }
 
 TEST_F(Particles, mistakes_in_the_block_are_told_with_their_places) {
-  const std::string block = std::string(box) + ", ";
   const std::string one = R"("poses": [[1, 2, 3]])", red = R"("material": "red", )";
-  EXPECT_EQ(complaint(block + red + R"("poses": [])"),
-            "x.json: /particles/0/poses: must be a list of at least one row and at most "
-            "1073741824 rows (got a list of 0)");
-  EXPECT_EQ(complaint(block + red + R"("poses": [[1, 2, 3], [1, 2]])"),
-            "x.json: /particles/0/poses/1: must be a list of 3 numbers (got a list of 2)");
-  EXPECT_EQ(complaint(block + red + R"("columns": ["position", "rotatoin"], )" + one),
-            "x.json: /particles/0/columns/1: must be the name of a column (got \"rotatoin\"; did "
-            "you mean \"rotation\"?)");
-  EXPECT_EQ(complaint(block + red + R"("columns": ["position", "position"], )" + one),
-            "x.json: /particles/0/columns/1: duplicate (got \"position\" again)");
-  EXPECT_EQ(complaint(block + one + R"(, "material": "rde")"),
-            "x.json: /particles/0/material: must be the name of a material (got \"rde\"; did you "
-            "mean \"red\"?)");
-  EXPECT_EQ(complaint(block + R"("columns": ["position", "material"], "materials": ["red"],
-                                 "poses": [[1, 2, 3, 1]])"),
-            "x.json: /particles/0/poses/0: material must be an index of the block's materials "
-            "(got 1)");
-  EXPECT_EQ(complaint(block + red + R"("file": "p.csv", )" + one),
-            "x.json: /particles/0: must have either \"poses\" or \"file\" (got both)");
-  EXPECT_EQ(complaint(block + red + R"("count": 2, )" + one),
-            "x.json: /particles/0/poses: must be a list of 2 rows, as \"count\" says (got a list "
-            "of 1)");
+  const std::pair<std::string, std::string> rows[] = {
+      {red + R"("poses": [])",
+       "/poses: must be a list of at least one row and at most 1073741824 rows (got a list of 0)"},
+      {red + R"("poses": [[1, 2, 3], [1, 2]])",
+       "/poses/1: must be a list of 3 numbers (got a list of 2)"},
+      {red + R"("columns": ["position", "rotatoin"], )" + one,
+       "/columns/1: must be the name of a column (got \"rotatoin\"; did you mean \"rotation\"?)"},
+      {red + R"("columns": ["position", "position"], )" + one,
+       "/columns/1: duplicate (got \"position\" again)"},
+      {one + R"(, "material": "rde")",
+       "/material: must be the name of a material (got \"rde\"; did you mean \"red\"?)"},
+      {R"("columns": ["position", "material"], "materials": ["red"], "poses": [[1, 2, 3, 1]])",
+       "/poses/0: material must be an index of the block's materials (got 1)"},
+      {red + R"("file": "p.csv", )" + one, ": must have either \"poses\" or \"file\" (got both)"},
+      {red + R"("count": 2, )" + one,
+       "/poses: must be a list of 2 rows, as \"count\" says (got a list of 1)"}};
+  for (const auto& [keys, message] : rows)
+    EXPECT_EQ(complaint(std::string(box) + ", " + keys), "x.json: /particles/0" + message);
 }
 
 // Pictures in shares are of one scene only if they are of the same poses.

@@ -7,6 +7,7 @@
 #include "renderer/json/parse.h"
 #include "renderer/member_json/shape_json.h"
 #include "renderer/scene_json/scene_json.h"
+#include "tests/support/messages.h"
 #include "tests/support/source_files.h"
 
 namespace minkray {
@@ -20,7 +21,7 @@ void expect_an_end(const std::string& text, int& scenes) {
   if (scene) ++scenes;
   for (const std::string& message : mistakes.messages()) {
     EXPECT_LT(message.size(), 700u) << message;
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+    EXPECT_FALSE(has(message, "\n"));
   }
 }
 

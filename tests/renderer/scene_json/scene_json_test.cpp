@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "renderer/json/json.h"
+#include "tests/support/messages.h"
 
 namespace minkray {
 namespace {
@@ -113,12 +114,7 @@ TEST(SceneJson, lights_are_no_brighter_than_pictures_can_hold) {
 
 TEST(SceneJson, a_file_that_cannot_be_read_says_why) {
   const auto message = [](const char* file) -> std::string {
-    try {
-      load_scene(file);
-    } catch (const BadInput& bad) {
-      return bad.what();
-    }
-    return "";
+    return message_of<BadInput>([&] { load_scene(file); });
   };
   EXPECT_EQ(message("no-such-file.json"),
             "no-such-file.json: cannot be read: No such file or directory");
@@ -174,8 +170,7 @@ TEST(SceneJson, names_of_files_reach_no_terminal_as_they_are) {
     EXPECT_EQ(message.find("c?[31m??.json: /"), 0u) << message;
     EXPECT_EQ(message, printable(message));
   }
-  EXPECT_NE(mistakes.text().find("no?-folder/d?[31m?e.obj: cannot be read: "), std::string::npos)
-      << mistakes.text();
+  EXPECT_TRUE(has(mistakes.text(), "no?-folder/d?[31m?e.obj: cannot be read: "));
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "renderer/scene/materials.h"
 #include "renderer/scene/textures.h"
 #include "renderer/scene_json/scene_json.h"
+#include "tests/support/messages.h"
 #include "tests/support/source_files.h"
 #include "tests/support/temporary_folder.h"
 
@@ -53,8 +54,7 @@ TEST(ShippedScenes, the_schema_is_current) {
 }
 
 TEST(ShippedScenes, the_documented_table_of_shapes_is_current) {
-  EXPECT_NE(text_of_file(source_folder() / "docs/scene-format.md").find(shapes_as_markdown()),
-            std::string::npos)
+  EXPECT_TRUE(has(text_of_file(source_folder() / "docs/scene-format.md"), shapes_as_markdown()))
       << "put the output of ./run info --shapes --markdown into docs/scene-format.md";
 }
 
@@ -79,7 +79,7 @@ TEST(ShippedScenes, cpp_and_python_have_functions_for_all_shapes) {
     for_each_shape_kind([&]<class S>() {
       if (S::name == "custom") return;  // made of a function, and of no name
       const std::string kind = "\"" + std::string(S::name) + "\"";
-      EXPECT_NE(text.find(kind), std::string::npos) << name << " makes no shape of kind " << kind;
+      EXPECT_TRUE(has(text, kind)) << name << " makes no shape of kind ";
     });
   }
 }
@@ -109,10 +109,8 @@ TEST(ShippedScenes, the_zoo_and_the_bent_pipe_show_every_shape) {
     if (declared_by<S>.by_program) return;
     // The zoo's pictures are recorded: it stays as it is.
     const char* what_to_do = ": add a scene that shows it under its name, and read it here";
-    EXPECT_NE(zoo.find("\"type\": \"" + std::string(S::name) + "\""), std::string::npos)
-        << S::name << what_to_do;
-    EXPECT_NE(zoo.find("\"name\": \"" + std::string(S::name)), std::string::npos)
-        << S::name << what_to_do;
+    EXPECT_TRUE(has(zoo, "\"type\": \"" + std::string(S::name) + "\"")) << S::name << what_to_do;
+    EXPECT_TRUE(has(zoo, "\"name\": \"" + std::string(S::name))) << S::name << what_to_do;
   });
 }
 
@@ -124,7 +122,7 @@ TEST(ShippedScenes, missing_meshes_are_told_with_the_command_that_fetches_them) 
   const std::string text = text_of_file(source_folder() / "scenes/robot-arm.json");
   EXPECT_FALSE(parse_scene(text, folder, mistakes));
   ASSERT_EQ(mistakes.messages().size(), 7u);  // one a link
-  EXPECT_NE(mistakes.messages()[0].find("Base.obj: cannot be read"), std::string::npos);
+  EXPECT_TRUE(has(mistakes.messages()[0], "Base.obj: cannot be read"));
   EXPECT_TRUE(
       mistakes.messages()[0].ends_with("; fetch it with: " + (folder / "fetch-meshes").string()))
       << mistakes.messages()[0];

@@ -6,6 +6,7 @@
 
 #include "renderer/scene_json/scene_json.h"
 #include "renderer/scene_json/write_scene.h"
+#include "tests/support/messages.h"
 #include "tests/support/program.h"
 
 namespace minkray {
@@ -73,16 +74,13 @@ TEST_F(Split, stands_only_beside_a_mesh_file) {
     return mistakes_.text();
   };
   const std::string file = R"("shape": {"type": "hull", "file": "two.OBJ"}, )";
-  EXPECT_NE(told(file + R"("split": "group")").find("did you mean \"groups\""), std::string::npos);
-  EXPECT_NE(told(file + R"("split": 3)").find("/objects/0/split"), std::string::npos);
-  EXPECT_NE(
-      told(R"("shape": {"type": "sphere", "radius": 1}, "split": "groups")").find("needs a shape"),
-      std::string::npos);
-  EXPECT_NE(told(R"("shape": {"type": "plane"}, "split": "groups")").find("needs a shape"),
-            std::string::npos);
-  EXPECT_NE(
-      told(R"("shape": {"type": "hull", "file": "no.obj"}, "split": "groups")").find("no.obj"),
-      std::string::npos);
+  EXPECT_TRUE(has(told(file + R"("split": "group")"), "did you mean \"groups\""));
+  EXPECT_TRUE(has(told(file + R"("split": 3)"), "/objects/0/split"));
+  EXPECT_TRUE(
+      has(told(R"("shape": {"type": "sphere", "radius": 1}, "split": "groups")"), "needs a shape"));
+  EXPECT_TRUE(has(told(R"("shape": {"type": "plane"}, "split": "groups")"), "needs a shape"));
+  EXPECT_TRUE(
+      has(told(R"("shape": {"type": "hull", "file": "no.obj"}, "split": "groups")"), "no.obj"));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "renderer/sensor/lidar_models.h"
 #include "renderer/sensor/ray_directions.h"
 #include "renderer/sensor/sensor_rays.h"
+#include "tests/support/messages.h"
 #include "tests/support/program.h"
 
 namespace minkray {
@@ -27,12 +28,7 @@ double elevation(const SensorRay& ray) {
 
 template <class Error>
 std::string told(const std::string& pattern) {
-  try {
-    rays_of_pattern(pattern, 0.1);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "nothing";
+  return message_of<Error>([&] { rays_of_pattern(pattern, 0.1); });
 }
 
 TEST(Lidars, have_the_channels_of_their_data_sheets) {
@@ -63,15 +59,13 @@ TEST(Lidars, have_the_channels_of_their_data_sheets) {
 }
 
 TEST(Lidars, that_are_unknown_are_told_the_names) {
-  EXPECT_NE(told<WrongUsage>("VLP-17").find("did you mean \"VLP-16\"?"), std::string::npos)
-      << told<WrongUsage>("VLP-17");
+  EXPECT_TRUE(has(told<WrongUsage>("VLP-17"), "did you mean \"VLP-16\"?"));
   const std::string all = told<WrongUsage>("blickfeld");
-  for (const LidarModel& model : lidar_models())
-    EXPECT_NE(all.find(model.name), std::string::npos) << all;
-  EXPECT_NE(told<WrongUsage>("VLP-16:0").find("VLP-16:STEPS"), std::string::npos);
-  EXPECT_NE(told<WrongUsage>("VLP-16:1.5").find("(got :1.5)"), std::string::npos);
-  EXPECT_NE(told<WrongUsage>("Mid-360:1e12").find("Mid-360:RAYS"), std::string::npos);
-  EXPECT_NE(told<BadInput>("missing.csv").find("missing.csv"), std::string::npos);
+  for (const LidarModel& model : lidar_models()) EXPECT_TRUE(has(all, model.name));
+  EXPECT_TRUE(has(told<WrongUsage>("VLP-16:0"), "VLP-16:STEPS"));
+  EXPECT_TRUE(has(told<WrongUsage>("VLP-16:1.5"), "(got :1.5)"));
+  EXPECT_TRUE(has(told<WrongUsage>("Mid-360:1e12"), "Mid-360:RAYS"));
+  EXPECT_TRUE(has(told<BadInput>("missing.csv"), "missing.csv"));
 }
 
 TEST(Lidars, the_mid_360_covers_its_field_of_view_and_does_not_repeat) {
@@ -130,7 +124,7 @@ TEST(Lidars, a_range_of_azimuths_has_rays_at_both_ends) {
   }
   for (const char* wrong : {"spinning:1x2:0,0:-200,200", "spinning:1x2:0,0:0",
                             "spinning:1x2:1,0:0,1", "spinning:1x2:0,0:0,1:2", "spinning:0x2"})
-    EXPECT_NE(told<WrongUsage>(wrong).find(":FROM,TO"), std::string::npos) << wrong;
+    EXPECT_TRUE(has(told<WrongUsage>(wrong), ":FROM,TO")) << wrong;
 }
 
 TEST(Lidars, are_read_from_files) {
@@ -172,24 +166,18 @@ TEST(Lidars, are_read_from_files) {
   const auto refused = [&](const char* name, const std::string& text) {
     return told<BadInput>(write(name, text));
   };
-  EXPECT_NE(refused("p.mat3x4f", bytes.substr(1)).find("got 47 bytes"), std::string::npos);
-  EXPECT_NE(refused("p.mat3x4f", std::string(48, '\0')).find("pose 0 must"), std::string::npos);
-  EXPECT_NE(
-      refused("a.json", R"({"elevations": [99], "steps": 4})").find("/elevations/0: must be "),
-      std::string::npos);
-  EXPECT_NE(refused("a.json", R"({"elevations": [9], "steps": 0})").find("/steps"),
-            std::string::npos);
-  EXPECT_NE(refused("a.json", R"({"elevations": [9], "azimuths": [1, 2], "steps": 1})")
-                .find("as many azimuths as elevations (got 2 and 1)"),
-            std::string::npos);
-  EXPECT_NE(refused("a.json", R"({"elevations": [9], "firing_times": [0, 0], "steps": 1})")
-                .find("as many firing_times as elevations (got 2 and 1)"),
-            std::string::npos);
-  EXPECT_NE(refused("a.json", R"({"elevations": [9], "firing_times": [-1], "steps": 1})")
-                .find("/firing_times/0: must be from 0 to 1 seconds"),
-            std::string::npos);
-  EXPECT_NE(refused("a.json", R"({"beam_altitude_angles": [1]})").find("/lidar_mode"),
-            std::string::npos);
+  EXPECT_TRUE(has(refused("p.mat3x4f", bytes.substr(1)), "got 47 bytes"));
+  EXPECT_TRUE(has(refused("p.mat3x4f", std::string(48, '\0')), "pose 0 must"));
+  EXPECT_TRUE(
+      has(refused("a.json", R"({"elevations": [99], "steps": 4})"), "/elevations/0: must be "));
+  EXPECT_TRUE(has(refused("a.json", R"({"elevations": [9], "steps": 0})"), "/steps"));
+  EXPECT_TRUE(has(refused("a.json", R"({"elevations": [9], "azimuths": [1, 2], "steps": 1})"),
+                  "as many azimuths as elevations (got 2 and 1)"));
+  EXPECT_TRUE(has(refused("a.json", R"({"elevations": [9], "firing_times": [0, 0], "steps": 1})"),
+                  "as many firing_times as elevations (got 2 and 1)"));
+  EXPECT_TRUE(has(refused("a.json", R"({"elevations": [9], "firing_times": [-1], "steps": 1})"),
+                  "/firing_times/0: must be from 0 to 1 seconds"));
+  EXPECT_TRUE(has(refused("a.json", R"({"beam_altitude_angles": [1]})"), "/lidar_mode"));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "renderer/sensor/npy.h"
 #include "renderer/sensor/scan_files.h"
 #include "renderer/sensor/sensor_path.h"
+#include "tests/support/messages.h"
 #include "tests/support/program.h"
 #include "tests/support/random.h"
 
@@ -238,25 +239,18 @@ TEST(SensorPathTest, a_column_is_that_of_its_name_before_one_that_begins_so) {
     return read_sensor_path(folder / "path.csv").motion->keys.at(0).translate;
   };
   const auto told = [&](const std::string& text) -> std::string {
-    try {
-      path(text);
-    } catch (const BadInput& error) {
-      return error.what();
-    }
-    return "";
+    return message_of<BadInput>([&] { path(text); });
   };
   const Vec3<double> expected(4, 5, 6);
   // The deviations were taken for the path.
   EXPECT_EQ(path("time,x_std,y_std,z_std,x,y,z\n0,1,2,3,4,5,6\n"), expected);
   EXPECT_EQ(path("time_ns,Time/s,x1/m,x [m],Y/m,z(m)\n7,0,1,4,5,6\n"), expected);
   EXPECT_EQ(path("timestamp,x_position,y_position,z_position\n0,4,5,6\n"), expected);
-  EXPECT_NE(told("time,x_std,x_mean,y,z\n0,1,4,5,6\n")
-                .find("path.csv: line 1: must name one column x (got 2 and 3, \"xstd\" and "
-                      "\"xmean\")"),
-            std::string::npos);
-  EXPECT_NE(told("time,x,y,z,X/m\n0,4,5,6,4\n").find("must name one column x (got 2 and 5"),
-            std::string::npos);
-  EXPECT_NE(told("time,x,y\n0,4,5\n").find("line 1: must name the column z"), std::string::npos);
+  expect_messages(told, {{"time,x_std,x_mean,y,z\n0,1,4,5,6\n",
+                          "path.csv: line 1: must name one column x (got 2 and 3, \"xstd\" and "
+                          "\"xmean\")"},
+                         {"time,x,y,z,X/m\n0,4,5,6,4\n", "must name one column x (got 2 and 5"},
+                         {"time,x,y\n0,4,5\n", "line 1: must name the column z"}});
 }
 
 TEST(ScanFiles, hold_a_record_of_each_ray) {
@@ -279,7 +273,7 @@ TEST(ScanFiles, hold_a_record_of_each_ray) {
       EXPECT_EQ(t, result.echoes[17].t);
       EXPECT_EQ(time, 0.1 * 17 / 50);
     } else if (format.ending == ".pcd" || format.ending == ".ply") {
-      EXPECT_NE(text.find(std::to_string(points)), text.npos);
+      EXPECT_TRUE(has(text, std::to_string(points)));
       const std::string last = format.ending == ".pcd" ? "DATA binary\n" : "end_header\n";
       EXPECT_EQ(bytes.size() - text.find(last) - last.size(), 32 * points);
     } else if (format.ending == ".csv") {

@@ -12,6 +12,7 @@
 #include "renderer/surfaces/texture.h"
 #include "tests/support/must_hold.h"
 #include "tests/support/random.h"
+#include "tests/support/shifted.h"
 
 namespace minkray {
 namespace {
@@ -200,7 +201,7 @@ Scene floor_of_fields() {
   CheckerTexture fields = black_and_white<CheckerTexture>("planar");
   fields.scale = 0.25;
   scene.materials = {{"fields", LambertMaterial{Paint(TextureKind(fields))}}};
-  scene.objects = {{"floor", Box{{5000, 5000, 1}}, {Mat3<double>::Identity(), {0, 0, -1}}, 0}};
+  scene.objects = {{"floor", Box{{5000, 5000, 1}}, shifted_by(0, 0, -1), 0}};
   scene.lights = {EnvironmentLight{Colour::Ones(), Colour::Ones()}};
   scene.background = {Colour::Ones(), Colour::Ones()};
   return scene;

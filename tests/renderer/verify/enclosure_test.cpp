@@ -7,22 +7,18 @@
 
 #include "renderer/json/json.h"
 #include "renderer/verify/sha256.h"
+#include "tests/renderer/verify/verify_folder.h"
 #include "tests/support/meshes.h"
-#include "tests/support/program.h"
-#include "tests/support/source_files.h"
 
 namespace minkray {
 namespace {
 
 /// A ball of radius 0.1, or a mesh of its size, that slides along x through a hollow cube from x =
 /// 2 to 4.
-class Enclosures : public ::testing::Test {
+class Enclosures : public VerifyFolder {
  protected:
   void SetUp() override {
-    for (const std::string python : {"python3", "/usr/bin/python3"})
-      if (python_.empty() && run_shell(python + " -c 'import numpy'").exit_code == 0)
-        python_ = python;
-    if (python_.empty()) GTEST_SKIP() << "needs NumPy";
+    if (python().empty()) GTEST_SKIP() << "needs NumPy";
     const auto write_robot = [&](const std::string& name, const std::string& geometry) {
       std::ofstream(folder_ / (name + ".urdf")) << R"(<robot name="r"><link name="base"/>
   <link name="probe"><collision><geometry>)" + geometry +
@@ -46,34 +42,22 @@ class Enclosures : public ::testing::Test {
   std::string checked(const std::string& robot, const std::string& from, const std::string& to) {
     std::ofstream(folder_ / "plan.json") << R"({"joint_names": ["x"], "points": [{"positions": [)" +
                                                 from + R"(]}, {"positions": [)" + to + "]}]}";
-    const ProgramOutcome made =
-        run_shell("cd '" + folder_ / "" + "' && $MINKRAY verify --robot " + robot +
-                  ".urdf --scene scene.json --trajectory plan.json -o proof.json");
-    EXPECT_EQ(made.exit_code, 1) << made.out << made.err;
-    return check("proof.json");
+    expect_exit(1, verify("--robot " + robot +
+                          ".urdf --scene scene.json --trajectory plan.json -o proof.json"));
+    return verdict("proof.json");
   }
-  std::string check(const std::string& file) {
-    const ProgramOutcome outcome =
-        run_shell("cd '" + folder_ / "" + "' && " + python_ + " '" + std::string(source_folder()) +
-                  "/tools/minkray-check' " + file);
+  std::string verdict(const std::string& file) {
+    const ProgramOutcome outcome = check(file);
     return outcome.out + outcome.err;
   }
-  Json proof() { return Json::parse(read_file(folder_ / "proof.json")); }
-
-  static std::string read_file(const std::string& file) {
-    std::ifstream stream(file);
-    return {std::istreambuf_iterator<char>(stream), {}};
-  }
-
-  TemporaryFolder folder_;
-  std::string python_;
+  Json proof() { return Json::parse(text_of_file(folder_ / "proof.json")); }
 };
 
 TEST_F(Enclosures, a_body_that_gets_in_is_proven_where_it_crosses) {
   for (const std::string robot : {"ball", "mesh"}) {
     // In the middle of the step it is within.
     const std::string said = checked(robot, "0", "6");
-    EXPECT_NE(said.find("holds: collides: 1 collisions"), std::string::npos) << robot << said;
+    EXPECT_TRUE(has(said, "holds: collides: 1 collisions")) << robot;
     const Json made = proof();
     EXPECT_TRUE(made["enclosures"].empty()) << robot;
     const double at = 6 * made["collisions"][0][1].get<double>();
@@ -84,7 +68,7 @@ TEST_F(Enclosures, a_body_that_gets_in_is_proven_where_it_crosses) {
 TEST_F(Enclosures, a_body_that_is_within_all_the_time_is_wound_around) {
   for (const std::string robot : {"ball", "mesh"}) {
     const std::string said = checked(robot, "2.5", "3.5");
-    EXPECT_NE(said.find("holds: collides: 1 collisions"), std::string::npos) << robot << said;
+    EXPECT_TRUE(has(said, "holds: collides: 1 collisions")) << robot;
     EXPECT_EQ(proof()["enclosures"].size(), 1u) << robot;
   }
 }
@@ -92,7 +76,7 @@ TEST_F(Enclosures, a_body_that_is_within_all_the_time_is_wound_around) {
 /// Proofs of a body elsewhere, of an open surface, and of a surface as its hull.
 TEST_F(Enclosures, changed_proofs_are_refused) {
   checked("ball", "2.5", "3.5");
-  const std::string text = read_file(folder_ / "proof.json");
+  const std::string text = text_of_file(folder_ / "proof.json");
   const auto said_of = [&](const std::string& from, const std::string& to) {
     std::string changed = text.substr(0, text.rfind(",\"sha256\""));
     const std::size_t at = changed.find(from);
@@ -100,17 +84,15 @@ TEST_F(Enclosures, changed_proofs_are_refused) {
     if (at != std::string::npos) changed.replace(at, from.size(), to);
     std::ofstream(folder_ / "changed.json")
         << changed << ",\"sha256\":\"" << sha256(changed) << "\"}\n";
-    return check("changed.json");
+    return verdict("changed.json");
   };
-  EXPECT_NE(said_of("[2.5]", "[9.5]").find("does not hold"), std::string::npos);
-  EXPECT_NE(said_of("\"triangles\":[[0,2,3],", "\"triangles\":[").find("is not closed"),
-            std::string::npos);
+  EXPECT_TRUE(has(said_of("[2.5]", "[9.5]"), "does not hold"));
+  EXPECT_TRUE(has(said_of("\"triangles\":[[0,2,3],", "\"triangles\":["), "is not closed"));
   const std::string lists = text.substr(text.find("\"collisions\""));
   const std::string entry = lists.substr(lists.find("[["), lists.find("]]") - lists.find("[[") + 2);
-  EXPECT_NE(said_of("\"collisions\":[],\"enclosures\":" + entry,
-                    "\"collisions\":" + entry + ",\"enclosures\":[]")
-                .find("a surface is no hull"),
-            std::string::npos);
+  EXPECT_TRUE(has(said_of("\"collisions\":[],\"enclosures\":" + entry,
+                          "\"collisions\":" + entry + ",\"enclosures\":[]"),
+                  "a surface is no hull"));
 }
 
 }  // namespace

@@ -6,24 +6,15 @@
 #include <fstream>
 
 #include "renderer/json/json.h"
-#include "tests/support/program.h"
-#include "tests/support/source_files.h"
+#include "tests/renderer/verify/verify_folder.h"
 
 namespace minkray {
 namespace {
 
-class FarFrames : public ::testing::Test {
+class FarFrames : public VerifyFolder {
  protected:
-  void SetUp() override {
-    for (const std::string python : {"python3", "/usr/bin/python3"})
-      if (python_.empty() && run_shell(python + " -c 'import numpy'").exit_code == 0)
-        python_ = python;
-  }
-  void write(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ / name) << text;
-  }
   ProgramOutcome verify(const std::string& words) {
-    return run_shell("cd '" + folder_ / "" + "' && $MINKRAY verify --robot r.urdf " + words);
+    return VerifyFolder::verify("--robot r.urdf " + words);
   }
   double lower(const std::string& words) {
     const ProgramOutcome outcome = verify(words + " --json");
@@ -37,9 +28,6 @@ class FarFrames : public ::testing::Test {
           "primitive_poses: [{position: " +
               at + "}]}]}\n");
   }
-
-  TemporaryFolder folder_;
-  std::string python_;
 };
 
 constexpr const char* wide_limits = R"(<limit lower="-9" upper="9" effort="1" velocity="1"/>)";
@@ -84,16 +72,14 @@ TEST_F(FarFrames, of_virtual_joints_below_floating_ones_are_errors) {
   {transforms: [{translation: [-1, 0, 0]}]}, {transforms: [{translation: [1, 0, 0]}]}]})");
   put_ball("[0.3, 0.5, 0]");
   EXPECT_NEAR(lower("--scene scene.yaml --trajectory fly.yaml"), 0.2, 0.01);
-  const ProgramOutcome outcome = verify("--srdf r.srdf --scene scene.yaml --trajectory fly.yaml");
-  EXPECT_EQ(outcome.exit_code, 3);
-  EXPECT_NE(outcome.err.find("\"fly\" floats on the root already"), std::string::npos)
-      << outcome.err;
+  expect_exit(3, verify("--srdf r.srdf --scene scene.yaml --trajectory fly.yaml"),
+              {"\"fly\" floats on the root already"});
 }
 
 /// A cart 1 km from the world's origin, with two balls that pass each other at 0.1. The checker
 /// takes its rounding of 1e-12 of all distances from each gap, and refused the proof.
 TEST_F(FarFrames, proofs_far_from_the_origin_hold) {
-  if (python_.empty()) GTEST_SKIP() << "needs NumPy";
+  if (python().empty()) GTEST_SKIP() << "needs NumPy";
   write("r.urdf",
         std::string(R"(<robot name="r"><link name="base"/><link name="mid"/>
   <link name="a"><collision><geometry><sphere radius="0.1"/></geometry></collision></link>
@@ -115,27 +101,21 @@ TEST_F(FarFrames, proofs_far_from_the_origin_hold) {
               ", 0, 0], rotation: [0.1, 0.2, 0.3, 0.9]}]}, {transforms: "
               "[{translation: [" +
               far + ", 1, 0], rotation: [0.1, 0.2, 0.3, 0.9]}]}]}\n");
-    const ProgramOutcome made =
-        verify("--srdf r.srdf --trajectory plan.yaml -o proof.json && " + python_ + " '" +
-               std::string(source_folder()) + "/tools/minkray-check' proof.json");
-    EXPECT_EQ(made.exit_code, 0) << far << ": " << made.out << made.err;
-    EXPECT_NE(made.out.find("holds: free: "), std::string::npos) << made.out;
+    expect_exit(0, verify("--srdf r.srdf --trajectory plan.yaml -o proof.json"));
+    EXPECT_TRUE(has(check("proof.json").out, "holds: free: ")) << far;
   }
   // A clearance below the rounding of the checker has no proof.
   write("near.yaml", "joint_names: [x]\npoints: [{positions: [-1]}, {positions: [1]}]\n");
   put_ball("[0, -0.3000000000005, 0]");
-  EXPECT_EQ(verify("--scene scene.yaml --trajectory near.yaml --tolerance 0.1").exit_code, 0);
-  const ProgramOutcome none =
-      verify("--scene scene.yaml --trajectory near.yaml --tolerance 0.1 -o none.json");
-  EXPECT_EQ(none.exit_code, 3);
-  EXPECT_NE(none.err.find("proof: the minimum clearance is too small"), std::string::npos)
-      << none.err;
+  expect_exit(0, verify("--scene scene.yaml --trajectory near.yaml --tolerance 0.1"));
+  expect_exit(3, verify("--scene scene.yaml --trajectory near.yaml --tolerance 0.1 -o none.json"),
+              {"proof: the minimum clearance is too small"});
 }
 
 /// The checker's bound of a turn had 4e-8 to spare, and that of a planar joint's way was the length
 /// of the largest x and y: bounds above the engine's refuse what the engine proves.
 TEST_F(FarFrames, proofs_of_balls_and_planar_joints_hold) {
-  if (python_.empty()) GTEST_SKIP() << "needs NumPy";
+  if (python().empty()) GTEST_SKIP() << "needs NumPy";
   put_ball("[0, 3, 0]");
   const std::string begin = R"(<robot name="r"><link name="base"/><link name="mid"/>
   <link name="end"><collision><origin xyz="0.5 0 0"/><geometry><sphere radius="0.1"/></geometry></collision></link>
@@ -148,11 +128,9 @@ TEST_F(FarFrames, proofs_of_balls_and_planar_joints_hold) {
   const auto checked = [&](const std::string& kinds, const std::string& rows) {
     write("r.urdf", kinds);
     write("rows.json", rows);
-    const ProgramOutcome made =
-        verify("--scene scene.yaml --trajectory rows.json --tolerance 0.5 -o proof.json && " +
-               python_ + " '" + std::string(source_folder()) + "/tools/minkray-check' proof.json");
-    EXPECT_EQ(made.exit_code, 0) << made.out << made.err;
-    return made.out.find("holds: free") != std::string::npos;
+    expect_exit(0,
+                verify("--scene scene.yaml --trajectory rows.json --tolerance 0.5 -o proof.json"));
+    return has(check("proof.json").out, "holds: free");
   };
   EXPECT_TRUE(checked(begin + "continuous" + middle + "spherical" + end,
                       R"([{"a":0,"b":[1,0,0,0]},{"a":0.7,"b":[0.9,0.3,0.1,0.2]}])"));

@@ -7,12 +7,12 @@
 #include <sstream>
 
 #include "renderer/json/json.h"
-#include "tests/support/program.h"
+#include "tests/renderer/verify/verify_folder.h"
 
 namespace minkray {
 namespace {
 
-class OddInputs : public ::testing::Test {
+class OddInputs : public VerifyFolder {
  protected:
   void SetUp() override {
     std::ofstream(folder_ / "r.urdf") << R"(<robot name="r">
@@ -30,11 +30,8 @@ class OddInputs : public ::testing::Test {
   static std::string scene(const std::string& object) {
     return "world:\n  collision_objects:\n    - " + object + "\n";
   }
-  void write(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ / name) << text;
-  }
   ProgramOutcome verify(const std::string& words) {
-    return run_shell("cd '" + folder_ / "" + "' && $MINKRAY verify --robot r.urdf " + words);
+    return VerifyFolder::verify("--robot r.urdf " + words);
   }
   /// Verifies a plan, or a scene; returns the exit code and the errors.
   std::string with_plan(const std::string& text, const std::string& name = "odd.yaml") {
@@ -47,8 +44,6 @@ class OddInputs : public ::testing::Test {
     const ProgramOutcome outcome = verify("--scene odd.yaml --trajectory plan.yaml");
     return std::to_string(outcome.exit_code) + " " + outcome.err;
   }
-
-  TemporaryFolder folder_;
 };
 
 void expect_begin(const std::string& text, const std::string& begin) {
@@ -162,10 +157,8 @@ TEST_F(OddInputs, starts_elsewhere_and_robots_without_shapes_have_notes) {
   write("r.urdf", R"(<robot name="r"><link name="base"/><link name="bob"><visual><geometry>
   <sphere radius="0.1"/></geometry></visual></link><joint name="turn" type="continuous">
   <parent link="base"/><child link="bob"/></joint></robot>)");
-  const ProgramOutcome outcome = verify("--scene scene.yaml --trajectory plan.yaml");
-  EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_NE(outcome.err.find("r.urdf: has no shapes that can collide"), std::string::npos)
-      << outcome.err;
+  expect_exit(0, verify("--scene scene.yaml --trajectory plan.yaml"),
+              {"r.urdf: has no shapes that can collide"});
 }
 
 /// A quaternion's length does not matter, and one of length zero turns nothing, as in MoveIt.
@@ -202,22 +195,18 @@ multi_dof_joint_trajectory:
     - {transforms: [{translation: [0, 0, 0], rotation: [0, 0, 0.99, 0.14]}], velocities: [{}]}
     - {transforms: [{translation: [0, 0, 0], rotation: [0, 0, 0.99, -0.14]}]}
 )");
-  const ProgramOutcome outcome = verify("--srdf r.srdf --scene ahead.yaml --trajectory odd.yaml");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  EXPECT_NE(outcome.err.find("\"roam\" turns by more than half a turn in 1 step"),
-            std::string::npos)
-      << outcome.err;
-  EXPECT_NE(outcome.err.find("velocities are ignored"), std::string::npos) << outcome.err;
+  expect_exit(0, verify("--srdf r.srdf --scene ahead.yaml --trajectory odd.yaml"),
+              {"\"roam\" turns by more than half a turn in 1 step", "velocities are ignored"});
 }
 
 /// With a padding of NaN every motion was free.
 TEST_F(OddInputs, paddings_are_lengths) {
   const std::string words = "--scene scene.yaml --trajectory plan.yaml --padding ";
-  EXPECT_EQ(verify(words + "nan").exit_code, 2);
-  EXPECT_EQ(verify(words + "-1").exit_code, 2);
-  EXPECT_EQ(verify(words + "1e6").exit_code, 1);
-  EXPECT_EQ(verify(words + "0 --inflate bob=0.1 --inflate bob=0").exit_code, 3);
-  EXPECT_EQ(verify(words + "0 --inflate bob=nan").exit_code, 3);
+  expect_exit(2, verify(words + "nan"));
+  expect_exit(2, verify(words + "-1"));
+  expect_exit(1, verify(words + "1e6"));
+  expect_exit(3, verify(words + "0 --inflate bob=0.1 --inflate bob=0"));
+  expect_exit(3, verify(words + "0 --inflate bob=nan"));
 }
 
 TEST_F(OddInputs, lines_of_garbage_have_errors_and_hide_no_other) {
@@ -232,8 +221,8 @@ TEST_F(OddInputs, lines_of_garbage_have_errors_and_hide_no_other) {
   for (std::string line; std::getline(lines, line);)
     status += Json::parse(line)["status"].text().substr(0, 1);
   EXPECT_EQ(status, "eeeefeeeeeeeeef");
-  EXPECT_EQ(outcome.out.find("line 1: line 1"), std::string::npos);
-  EXPECT_NE(outcome.out.find("line 4: /: not valid JSON"), std::string::npos) << outcome.out;
+  EXPECT_FALSE(has(outcome.out, "line 1: line 1"));
+  EXPECT_TRUE(has(outcome.out, "line 4: /: not valid JSON"));
 }
 
 }  // namespace

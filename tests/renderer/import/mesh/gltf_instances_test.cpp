@@ -9,6 +9,7 @@
 #include "renderer/surfaces/mesh_point.h"
 #include "renderer/surfaces/texture.h"
 #include "tests/renderer/import/imports.h"
+#include "tests/support/messages.h"
 
 namespace minkray {
 namespace {
@@ -62,7 +63,7 @@ TEST_F(MeshFolder, gltf_shows_instances_and_default_morphs) {
   EXPECT_NEAR(placed.upper.x(), 11, 1e-12);
   const std::string told = complaint(
       folder.write("w.gltf", gltf_with(instances + R"("TRANSLATION": 0, "SCALE": 4}}})", "", "")));
-  EXPECT_NE(told.find("all of one count"), std::string::npos) << told;
+  EXPECT_TRUE(has(told, "all of one count"));
 }
 
 TEST_F(MeshFolder, nodes_have_morph_weights_of_their_own) {
@@ -140,12 +141,11 @@ TEST_F(MeshFolder, colours_of_vertices_must_be_as_many_as_these) {
   const auto complaint_of = [&](const std::string& attributes) {
     return complaint(folder.write("w.gltf", gltf_with("", "", "", attributes)));
   };
-  EXPECT_NE(complaint_of(R"(, "COLOR_0": 2)")
-                .find("/meshes/0/primitives/0/attributes/COLOR_0: must have as many items as "
-                      "POSITION, 4 (got 2)"),
-            std::string::npos);
-  EXPECT_NE(complaint_of(R"(, "COLOR_0": 9)").find("must be the number of one of the 5 accessors"),
-            std::string::npos);
+  EXPECT_TRUE(has(complaint_of(R"(, "COLOR_0": 2)"),
+                  "/meshes/0/primitives/0/attributes/COLOR_0: must have as many items as "
+                  "POSITION, 4 (got 2)"));
+  EXPECT_TRUE(
+      has(complaint_of(R"(, "COLOR_0": 9)"), "must be the number of one of the 5 accessors"));
 }
 
 TEST_F(MeshFolder, extensions_that_are_not_read_are_listed) {

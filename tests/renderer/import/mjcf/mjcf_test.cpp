@@ -5,8 +5,8 @@
 #include <fstream>
 
 #include "renderer/film/render.h"
-#include "renderer/import/import.h"
 #include "tests/oracle/mujoco_model.h"
+#include "tests/renderer/import/imports.h"
 #include "tests/support/program.h"
 #include "tests/support/random.h"
 #include "tests/support/robot_models.h"
@@ -211,18 +211,11 @@ TEST(Mjcf, composites_of_a_file_have_a_hundred_thousand_elements_at_most_togethe
               counts[i] + "\" spacing=\"0.1\"><geom size=\"0.01\"/></composite></body>\n";
     return text + "</worldbody></mujoco>";
   };
-  Mistakes mistakes("robot.xml");
-  const std::optional<Model> model =
-      parse_model(file_with({"100 100 9", "100 10 10"}), "robot.xml", {}, mistakes);
-  ASSERT_TRUE(model) << mistakes.text();
-  EXPECT_EQ(model->geoms.size(), 100'000u);
+  EXPECT_EQ(model_of(file_with({"100 100 9", "100 10 10"}), "robot.xml").geoms.size(), 100'000u);
 
   for (const std::vector<std::string>& counts :
        {std::vector<std::string>{"100 1000 2"}, {"100 100 9", "100 101 1"}}) {
-    mistakes = Mistakes("robot.xml");
-    EXPECT_FALSE(parse_model(file_with(counts), "robot.xml", {}, mistakes));
-    EXPECT_NE(mistakes.text().find("at most 100,000 elements"), std::string::npos)
-        << mistakes.text();
+    EXPECT_TRUE(has(mistakes_of(file_with(counts), "robot.xml"), "at most 100,000 elements"));
   }
 }
 
@@ -233,19 +226,13 @@ TEST(Mjcf, geoms_of_one_mesh_have_one_hull) {
            "<geom type='mesh' mesh='t' pos='1 0 0'/></worldbody></mujoco>";
   };
   const std::string vertices = "vertex='0 0 0 1 0 0 0 1 0 0 0 1'";
-  Mistakes mistakes("robot.xml");
-  const std::optional<Model> model =
-      parse_model(file_with("", vertices), "robot.xml", {}, mistakes);
-  ASSERT_TRUE(model) << mistakes.text();
-  ASSERT_EQ(model->geoms.size(), 2u);
-  EXPECT_EQ(model->meshes.size(), 1u);
-  for (const ModelGeom& geom : model->geoms) EXPECT_EQ(support_of(geom, {0, 0, -1}).z(), -1);
+  const Model model = model_of(file_with("", vertices), "robot.xml");
+  ASSERT_EQ(model.geoms.size(), 2u);
+  EXPECT_EQ(model.meshes.size(), 1u);
+  for (const ModelGeom& geom : model.geoms) EXPECT_EQ(support_of(geom, {0, 0, -1}).z(), -1);
   // Few lines of it could give many meshes many vertices.
-  mistakes = Mistakes("robot.xml");
-  EXPECT_FALSE(parse_model(file_with("<mesh " + vertices + "/>", ""), "robot.xml", {}, mistakes));
-  EXPECT_NE(mistakes.text().find("line 2: <mesh name=\"t\">: vertex: must be in the <mesh> itself"),
-            std::string::npos)
-      << mistakes.text();
+  EXPECT_TRUE(has(mistakes_of(file_with("<mesh " + vertices + "/>", ""), "robot.xml"),
+                  "line 2: <mesh name=\"t\">: vertex: must be in the <mesh> itself"));
 }
 
 TEST(Mjcf, mistakes_are_told_all_at_once_with_their_lines) {
@@ -261,14 +248,12 @@ TEST(Mjcf, mistakes_are_told_all_at_once_with_their_lines) {
     </body>
   </worldbody>
 </mujoco>)";
-  Mistakes mistakes("robot.xml");
-  EXPECT_FALSE(parse_model(text, "robot.xml", {}, mistakes));
-  const std::string told = mistakes.text();
-  for (const char* expected :
-       {"line 2: <compiler>: angle", "line 4: <geom>: size: of a capsule must be 2 numbers > 0",
-        "line 5: <geom>: type", "line 6: <joint>: axis", "line 7: <geom>: size",
-        "line 8: <geom>: mesh: no <mesh> is named", "line 9: <replicate>: count: must be"})
-    EXPECT_NE(told.find(expected), told.npos) << expected << " in\n" << told;
+  const std::string told = mistakes_of(text, "robot.xml");
+  expect_parts(
+      told,
+      {"line 2: <compiler>: angle", "line 4: <geom>: size: of a capsule must be 2 numbers > 0",
+       "line 5: <geom>: type", "line 6: <joint>: axis", "line 7: <geom>: size",
+       "line 8: <geom>: mesh: no <mesh> is named", "line 9: <replicate>: count: must be"});
 }
 
 }  // namespace

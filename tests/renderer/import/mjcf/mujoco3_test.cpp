@@ -8,6 +8,7 @@
 
 #include "renderer/import/model/mesh_hull.h"
 #include "tests/renderer/import/imports.h"
+#include "tests/support/messages.h"
 
 namespace minkray {
 namespace {
@@ -34,9 +35,9 @@ TEST(Mujoco3, replicas_stand_a_turn_and_a_step_further_each) {
                                      "0\"><geom size=\"0.1\"/></replicate>"),
                                 "m.xml");
   EXPECT_LT((spiral.geoms[2].pose.translation - Vec3<double>(1, 1, 0)).norm(), 1e-15);
-  EXPECT_NE(mistakes_of(mjcf("<replicate count=\"1e9\"><geom size=\"1\"/></replicate>"), "m.xml")
-                .find("count:"),
-            std::string::npos);
+  EXPECT_TRUE(
+      has(mistakes_of(mjcf("<replicate count=\"1e9\"><geom size=\"1\"/></replicate>"), "m.xml"),
+          "count:"));
 }
 
 TEST_F(MeshFolder, attached_models_keep_their_own_settings) {
@@ -66,7 +67,7 @@ TEST_F(MeshFolder, attached_models_keep_their_own_settings) {
   const std::string told = complaint(
       folder.write("self.xml", R"(<mujoco><worldbody><body name="b"><attach body="b" prefix="p"/>
     <attach body="b" prefix="q"/></body></worldbody></mujoco>)"));
-  EXPECT_NE(told.find("in a cycle"), std::string::npos) << told;
+  EXPECT_TRUE(has(told, "in a cycle"));
 }
 
 TEST_F(MeshFolder, meshes_of_an_included_file_may_lie_beside_it) {
@@ -104,7 +105,7 @@ TEST(Mujoco3, builtin_meshes_are_their_vertices) {
       mistakes_of(mjcf("<geom type=\"mesh\" mesh=\"m\"/>",
                        "<asset><mesh name=\"m\" builtin=\"sphere\" params=\"9\"/></asset>"),
                   "m.xml");
-  EXPECT_NE(wrong.find("a subdivision from 0 to 4"), std::string::npos) << wrong;
+  EXPECT_TRUE(has(wrong, "a subdivision from 0 to 4"));
 }
 
 /// A primitive fitted to a mesh of its own kind has its size.
@@ -131,9 +132,8 @@ TEST(Mujoco3, primitives_are_fitted_to_meshes) {
 
 TEST(Mujoco3, what_is_newer_is_told_with_its_version) {
   for (const char* element : {"<flexcomp/>", "<flex/>"})
-    EXPECT_NE(mistakes_of(mjcf(element), "m.xml").find("MuJoCo 3.0"), std::string::npos) << element;
-  EXPECT_NE(mistakes_of("<mujoco><deformable/></mujoco>", "m.xml").find("MuJoCo 3.0"),
-            std::string::npos);
+    EXPECT_TRUE(has(mistakes_of(mjcf(element), "m.xml"), "MuJoCo 3.0")) << element;
+  EXPECT_TRUE(has(mistakes_of("<mujoco><deformable/></mujoco>", "m.xml"), "MuJoCo 3.0"));
 }
 
 TEST(Mujoco, bodies_without_a_place_are_where_their_mass_is) {
@@ -154,11 +154,11 @@ TEST(Mujoco, bodies_without_a_place_are_where_their_mass_is) {
              Vec3<double>(7, 0, 0))
                 .norm(),
             1e-15);
-  EXPECT_NE(mistakes_of(
-                "<mujoco><compiler coordinate=\"global\"/><worldbody><body/></worldbody></mujoco>",
-                "m.xml")
-                .find("pos: missing"),
-            std::string::npos);
+  EXPECT_TRUE(
+      has(mistakes_of(
+              "<mujoco><compiler coordinate=\"global\"/><worldbody><body/></worldbody></mujoco>",
+              "m.xml"),
+          "pos: missing"));
 }
 
 }  // namespace

@@ -45,10 +45,7 @@ constexpr const char* world_of_two = R"(<sdf version="1.8"><world name="w">
   <model name="b"><pose relative_to="a">0 1 0 0 0 0</pose><link name="l"/></model></world></sdf>)";
 
 Model sdf_model(const std::string& text) {
-  Mistakes mistakes("m.sdf");
-  std::optional<Model> model = parse_model(text, "m.sdf", {}, mistakes);
-  EXPECT_TRUE(model) << mistakes.text();
-  return model ? std::move(*model) : Model{};
+  return model_of(text, "m.sdf");
 }
 
 std::map<std::string, Affine<double>> links_of(const Model& model) {
