@@ -190,6 +190,15 @@ Shape random_nesting(std::uint64_t seed, int depth) {
   return nest(depth);
 }
 
+std::vector<SampleShape> sample_shapes_and_nestings(std::uint64_t first, std::uint64_t last) {
+  std::vector<SampleShape> all = sample_shapes();
+  for (std::uint64_t seed = first; seed < last; ++seed) {
+    const Shape shape = random_nesting(seed);
+    all.push_back({"seed " + std::to_string(seed) + " " + name_of_nesting(shape), shape});
+  }
+  return all;
+}
+
 std::string name_of_nesting(const Shape& shape) {
   return std::visit(
       [](const auto& kind) {

@@ -28,6 +28,9 @@ std::vector<SampleShape> sample_shapes();
 /// A shape of up to `depth` operators inside each other, of sizes near 1, solid or flat.
 Shape random_nesting(std::uint64_t seed, int depth = 3);
 
+/// The sample shapes, and random nestings of these seeds.
+std::vector<SampleShape> sample_shapes_and_nestings(std::uint64_t first, std::uint64_t last);
+
 /// Such as "rounded(minkowski_sum(box, hull))".
 std::string name_of_nesting(const Shape& shape);
 

@@ -19,11 +19,7 @@ std::vector<InstructionSet> instruction_sets() {
 }
 
 std::vector<SampleShape> packed_shapes() {
-  std::vector<SampleShape> all = sample_shapes();
-  for (std::uint64_t seed = 500; seed < 540; ++seed) {
-    const Shape shape = random_nesting(seed);
-    all.push_back({"seed " + std::to_string(seed) + " " + name_of_nesting(shape), shape});
-  }
+  std::vector<SampleShape> all = sample_shapes_and_nestings(500, 540);
   // Needles: packets left their casts' box and model to them.
   using V = Vec3<double>;
   all.push_back(

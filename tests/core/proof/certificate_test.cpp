@@ -253,12 +253,7 @@ TEST_P(CertifiedShapes, all_casts_are_certified) {
 }
 
 std::vector<SampleShape> solids() {
-  std::vector<SampleShape> all = sample_shapes();
-  for (std::uint64_t seed = 600; seed < 640; ++seed) {
-    const Shape shape = random_nesting(seed);
-    all.push_back({"seed " + std::to_string(seed) + " " + name_of_nesting(shape), shape});
-  }
-  return all;
+  return sample_shapes_and_nestings(600, 640);
 }
 
 INSTANTIATE_TEST_SUITE_P(SampleShapes, CertifiedShapes, values_asked_for<CertifiedShapes>(solids));

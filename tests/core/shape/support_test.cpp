@@ -10,12 +10,7 @@ namespace minkray::testing {
 namespace {
 
 std::vector<SampleShape> shapes() {
-  std::vector<SampleShape> all = sample_shapes();
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
-    const Shape shape = random_nesting(seed);
-    all.push_back({"seed " + std::to_string(seed) + " " + name_of_nesting(shape), shape});
-  }
-  return all;
+  return sample_shapes_and_nestings(0, 100);
 }
 
 /// Random ones, the axes, and directions that are nearly along an axis or a coordinate plane.
