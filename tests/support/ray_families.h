@@ -32,6 +32,10 @@ inline constexpr std::array ray_families = {
                          "from one point 4 R away, through all of a picture of the shape"},
 };
 
+constexpr std::string_view name_of(RayFamily family) {
+  return ray_families[static_cast<std::size_t>(family)].name;
+}
+
 /// Rays at one shape, with infinite t_max. R is the radius of its bounding ball.
 class FamilyRays {
  public:

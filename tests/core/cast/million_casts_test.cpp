@@ -3,8 +3,6 @@
 // other way round, and no t is further off than promised. `./run bench --many` casts many more.
 #include <gtest/gtest.h>
 
-#include <cctype>
-
 #include "core/cast/cast.h"
 #include "tests/support/cast_judge.h"
 #include "tests/support/measured_shapes.h"
@@ -45,12 +43,7 @@ TEST_P(MillionCasts, are_right) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, MillionCasts, values_asked_for<MillionCasts>(measured_shapes),
-                         [](const auto& tested) {
-                           std::string name = tested.param.name;
-                           for (char& c : name)
-                             if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-                           return name;
-                         });
+                         [](const auto& tested) { return as_test_name(tested.param.name); });
 
 TEST(CastJudge, notices_what_is_wrong) {
   const Shape box = Box{{1, 1, 1}};

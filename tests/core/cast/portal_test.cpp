@@ -64,7 +64,7 @@ struct PortalRow {
 };
 
 void PrintTo(const PortalRow& row, std::ostream* out) {
-  *out << row.name;
+  *out << row.name << ", " << name_of(row.family);
 }
 
 const S egg = Ellipsoid{{1, 0.5, 0.25}}, other = Ellipsoid{{0.3, 0.5, 1}};
@@ -163,7 +163,11 @@ TEST_P(BesidePortal, casts_are_right) {
   EXPECT_LE(supports, row.supports * row.rays);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, BesidePortal, values_asked_for<BesidePortal>(portal_rows));
+INSTANTIATE_TEST_SUITE_P(Shapes, BesidePortal, values_asked_for<BesidePortal>(portal_rows),
+                         [](const auto& tested) {
+                           return as_test_name(tested.param.name + " " +
+                                               std::string(name_of(tested.param.family)));
+                         });
 
 TEST(SumOfEllipsoids, is_told_from_other_shapes) {
   for (const SampleShape& sum : sums()) EXPECT_TRUE(is_ellipsoid_sum(sum.shape)) << sum.name;

@@ -102,7 +102,8 @@ TEST_P(RoundedBoxes, are_hit_and_grazed_to_rounding) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, RoundedBoxes,
-                         ::testing::Values(RayFamily::random, RayFamily::grazing));
+                         ::testing::Values(RayFamily::random, RayFamily::grazing),
+                         [](const auto& tested) { return std::string(name_of(tested.param)); });
 
 /// Rays along axes, edges and in the planes of faces, which they touch within rounding.
 TEST(RoundedBox, is_hit_by_rays_along_its_edges_and_in_its_planes) {

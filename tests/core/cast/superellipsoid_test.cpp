@@ -88,7 +88,8 @@ TEST_P(Superellipsoids, are_hit_and_grazed_to_rounding_by_one_support_call) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, Superellipsoids,
-                         ::testing::Values(RayFamily::random, RayFamily::grazing));
+                         ::testing::Values(RayFamily::random, RayFamily::grazing),
+                         [](const auto& tested) { return std::string(name_of(tested.param)); });
 
 /// Rays along axes and in coordinate planes, where curvature vanishes or is infinite, at the
 /// middle of flat sides and tangential there. One may not converge.
