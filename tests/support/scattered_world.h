@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
-// Worlds of shapes here and there, rays of several kinds at them, and whether two answers are the
-// same, bit for bit.
+// Worlds of shapes here and there, and rays of several kinds at them.
 #pragma once
-
-#include <gtest/gtest.h>
 
 #include <random>
 
-#include "core/world/world.h"
+#include "tests/support/world_judge.h"
 
 namespace minkray::testing {
 
@@ -87,20 +84,6 @@ inline std::vector<WorldRay> bundle(Scatter& random, int kind, std::size_t count
     rays.push_back({ray, i % 4 == 0 ? skip : no_instance});
   }
   return rays;
-}
-
-inline ::testing::AssertionResult same(const WorldHit& a, const WorldHit& b) {
-  const CastResult<double>&x = a.cast, &y = b.cast;
-  if (a.instance != b.instance)
-    return ::testing::AssertionFailure()
-           << a.instance << " and " << b.instance << " at " << x.t() << " and " << y.t();
-  if (x.status != y.status) return ::testing::AssertionFailure() << "status";
-  if (!a.found()) return ::testing::AssertionSuccess();
-  if (x.t_base != y.t_base || x.t_offset != y.t_offset || x.offset_lo != y.offset_lo ||
-      x.offset_hi != y.offset_hi)
-    return ::testing::AssertionFailure() << "t " << x.t() << " and " << y.t();
-  if (x.normal != y.normal) return ::testing::AssertionFailure() << "normal";
-  return ::testing::AssertionSuccess();
 }
 
 }  // namespace minkray::testing

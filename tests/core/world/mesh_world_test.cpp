@@ -8,6 +8,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/random.h"
 #include "tests/support/shifted.h"
+#include "tests/support/world_judge.h"
 
 namespace minkray {
 namespace {
@@ -40,32 +41,6 @@ Ray<double> random_ray(testing::Random& random) {
   return {from, 5 * random.in_cube() - from};
 }
 
-/// Tests each instance by itself.
-WorldHit first_of_all(const World& world, const Ray<double>& ray) {
-  const Instances& instances = world.instances();
-  WorldHit first = WorldHit::miss();
-  for (std::uint32_t i = 0; i < instances.size(); ++i) {
-    MeshCast met;
-    PartCounts parts;
-    if (instances.is_half_space(i))
-      met.cast = cast_ray(instances.half_spaces()[0].in_world, ray);
-    else if (instances.is_mesh(i))
-      met = cast_ray(instances.mesh_of(i), ray, ray.t_max, false, 0, parts);
-    else
-      met.cast = cast_ray(instances.at(i), ray);
-    if (met.cast.found() && first.yields_to(i, met.cast.t())) first = {i, met.cast, met.part};
-  }
-  return first;
-}
-
-void expect_same(const WorldHit& a, const WorldHit& b) {
-  ASSERT_EQ(a.instance, b.instance);
-  ASSERT_EQ(a.part, b.part);
-  if (!a.found()) return;
-  ASSERT_EQ(a.cast.t(), b.cast.t());
-  ASSERT_EQ(a.cast.normal, b.cast.normal);
-}
-
 TEST(MeshWorld, finds_the_first_of_all_however_rays_are_asked) {
   const World world = mixed_world(1);
   testing::Random random(2);
@@ -75,18 +50,13 @@ TEST(MeshWorld, finds_the_first_of_all_however_rays_are_asked) {
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 40; ++x)
       rays.push_back({{{0, -12, 1}, {0.01 * (x - 20), 1, 0.01 * (y - 20)}}});
-  std::vector<WorldHit> together(rays.size());
-  std::vector<std::uint8_t> met(rays.size());
+  testing::Compared compared;
+  compared.with_single_rays(world, rays);
   QueryCounts counts;
-  world.closest_hits(rays, together, counts);
-  world.occluded(rays, met, counts);
   int meshes = 0, shapes = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const WorldHit first = first_of_all(world, rays[i].ray);
-    expect_same(world.closest_hit(rays[i], counts), first);
-    expect_same(together[i], first);
-    ASSERT_EQ(met[i] != 0, first.found());
-    ASSERT_EQ(world.occluded(rays[i], counts), first.found());
+  for (const WorldRay& ray : rays) {
+    const WorldHit first = testing::first_of_all(world, ray);
+    ASSERT_TRUE(testing::same(world.closest_hit(ray, counts), first));
     if (!first.found()) continue;
     meshes += first.part != no_part ? 1 : 0;
     shapes += world.instances().has_shape(first.instance) ? 1 : 0;
@@ -201,14 +171,6 @@ World world_of_meshes(std::uint64_t seed, int count, bool moves) {
   return world;
 }
 
-void expect_same_bounds(const WorldHit& a, const WorldHit& b) {
-  expect_same(a, b);
-  if (!a.found()) return;
-  ASSERT_EQ(a.cast.offset_lo, b.cast.offset_lo);
-  ASSERT_EQ(a.cast.offset_hi, b.cast.offset_hi);
-  ASSERT_EQ(a.cast.t_base, b.cast.t_base);
-}
-
 TEST(MeshWorld, rays_together_get_what_single_rays_get) {
   for (const int count : {1, 2, 7, 60})
     for (const bool moves : {false, true}) {
@@ -237,21 +199,11 @@ TEST(MeshWorld, rays_together_get_what_single_rays_get) {
       for (int i = 0; i < 1500; ++i) add(random_ray(random));
       add({{0, 0, 0}, {0, 0, 0}});
       add({{0, 0, 1e305}, {0, 0, -1}});
-      std::vector<WorldHit> together(rays.size());
-      std::vector<std::uint8_t> met(rays.size());
-      QueryCounts counts, alone;
-      world.closest_hits(rays, together, counts);
-      world.occluded(rays, met, alone);
-      int hits = 0;
-      for (std::size_t i = 0; i < rays.size(); ++i) {
-        SCOPED_TRACE(std::to_string(count) + " meshes, ray " + std::to_string(i));
-        const WorldHit single = world.closest_hit(rays[i], alone);
-        expect_same_bounds(together[i], single);
-        ASSERT_EQ(met[i] != 0, world.occluded(rays[i], alone));
-        hits += single.found() ? 1 : 0;
-      }
-      EXPECT_EQ(counts.exhausted, alone.exhausted);
-      EXPECT_GT(hits, 20);
+      SCOPED_TRACE(count);
+      testing::Compared compared;
+      compared.with_single_rays(world, rays);
+      EXPECT_EQ(compared.together.exhausted, compared.alone.exhausted);
+      EXPECT_GT(compared.hits, 20u);
     }
 }
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Rays in batches get the results that they get alone, bit for bit; and worlds whose instances
-// have moved give the same results as worlds built there.
+// Rays in batches, blocks and streams get the results that they get alone, bit for bit, for any
+// division and in any order; and worlds whose instances have moved give the same results as worlds
+// built there.
 #include <gtest/gtest.h>
-
-#include <cstring>
 
 #include "tests/support/scattered_world.h"
 
@@ -12,31 +11,86 @@ namespace {
 
 using namespace testing;
 
-TEST(WorldRays, answers_are_those_of_single_rays) {
+TEST(WorldRays, bundles_are_answered_as_single_rays) {
   Scatter random;
   const World world(scattered_shapes(300, random));
-  std::size_t rays = 0, hits = 0, blocked = 0;
-  QueryCounts alone, together;
+  Compared compared;
   for (const std::size_t count : {1u, 2u, 5u, 16u, 33u, 64u, 100u})
     for (int kind = 0; kind < 3; ++kind)
-      for (int i = 0; i < 15; ++i) {
-        const auto asked = bundle(random, kind, count, world.instances().size());
-        std::vector<WorldHit> answers(count);
-        world.closest_hits(asked, answers, together);
-        std::vector<std::uint8_t> met(count);
-        world.occluded(std::span<const WorldRay>(asked), met, together);
-        for (std::size_t k = 0; k < count; ++k, ++rays) {
-          const WorldHit hit = world.closest_hit(asked[k].ray, alone, asked[k].skip);
-          EXPECT_TRUE(same(answers[k], hit)) << count << " rays of kind " << kind;
-          EXPECT_EQ(met[k] != 0, world.occluded(asked[k].ray, alone, asked[k].skip));
-          EXPECT_EQ(met[k] != 0, hit.found());
-          hits += hit.found();
-          blocked += met[k];
-        }
-      }
-  EXPECT_GT(hits, rays * 3 / 10);
-  EXPECT_LT(hits, rays * 9 / 10);
-  EXPECT_EQ(blocked, hits);
+      for (int i = 0; i < 15; ++i)
+        compared.with_single_rays(world, bundle(random, kind, count, world.instances().size()));
+  compared.expect_parts(0.3, 0.9);
+}
+
+std::vector<WorldRay> mixed_rays(Scatter& random, std::size_t count, std::size_t instances) {
+  std::vector<WorldRay> rays;
+  for (int kind = 0; rays.size() < count; kind = (kind + 1) % 3)
+    for (const WorldRay& ray : bundle(random, kind, 16, instances)) rays.push_back(ray);
+  rays.resize(count);
+  return rays;
+}
+
+/// A world and the rays at it that are cut into parts.
+struct Stream {
+  const char* name;
+  Instances (*instances)(int, Scatter&);
+  int count;
+  std::size_t rays;
+  std::vector<std::size_t> cuts;
+};
+
+class WorldStreams : public ::testing::TestWithParam<Stream> {};
+
+TEST_P(WorldStreams, of_any_cut_and_order_are_answered_as_single_rays) {
+  const Stream& stream = GetParam();
+  Scatter random;
+  const World world(stream.instances(stream.count, random));
+  auto rays = mixed_rays(random, stream.rays, world.instances().size());
+  for (const std::size_t at_once : stream.cuts) {
+    Compared compared;
+    for (std::size_t begin = 0; begin < rays.size(); begin += at_once)
+      compared.with_single_rays(
+          world, std::span(rays).subspan(begin, std::min(at_once, rays.size() - begin)));
+    compared.expect_parts(0.2, 1);
+    std::reverse(rays.begin(), rays.end());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Worlds, WorldStreams,
+    ::testing::Values(
+        Stream{"a_million_rays_at_all_kinds_of_shapes", scattered_instances, 3000, 1000000, {5000}},
+        Stream{"any_cut",
+               scattered_instances,
+               500,
+               3000,
+               {1, 3, 31, 32, 33, 100, 1024, 1025, 3000, 3000}},
+        Stream{"a_shape_for_each_instance", scattered_shapes, 300, 3000, {10, 3000}}),
+    [](const auto& tested) { return std::string(tested.param.name); });
+
+TEST(WorldRays, half_spaces_and_instances_on_the_move) {
+  Scatter random;
+  Instances shapes = scattered_instances(300, random);
+  shapes.add(HalfSpaceBody<double>{Vec3<double>(0, 0, 1), -9});
+  std::vector<Affine<double>> poses;
+  std::vector<Movement<double>> movements;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    poses.push_back(shapes.is_half_space(i) ? Affine<double>() : random.pose(12));
+    Movement<double>& movement = movements.emplace_back();
+    movement.shift = random.point(2);
+    if (i % 3 == 0) continue;  // goes without turning
+    movement.angle = random.within(0, 3);
+    movement.axis = unit<double>(random.point(1));
+    movement.pivot = random.point(12);
+  }
+  World world(std::move(shapes));
+  world.pose_all([&](std::size_t i) { return poses[i]; },
+                 [&](std::size_t i) { return movements[i]; });
+  auto rays = mixed_rays(random, 3000, world.instances().size());
+  for (WorldRay& ray : rays) ray.time = random.within(0, 1);
+  Compared compared;
+  compared.with_single_rays(world, rays);
+  compared.expect_parts(0.2, 1);
 }
 
 TEST(WorldRays, no_rays_and_no_world) {
@@ -45,17 +99,20 @@ TEST(WorldRays, no_rays_and_no_world) {
   QueryCounts counts;
   world.occluded(std::span<const WorldRay>(), {}, counts);
   world.closest_hits({}, {}, counts);
-  EXPECT_EQ(counts.nodes, 0u);
-  const auto asked = bundle(random, 0, 8, 1);
-  std::vector<WorldHit> answers(asked.size());
-  empty.closest_hits(asked, answers, counts);
-  std::vector<std::uint8_t> met(asked.size(), 1);
-  empty.occluded(std::span<const WorldRay>(asked), met, counts);
-  EXPECT_EQ(std::count(met.begin(), met.end(), 0), 8);
-  for (const WorldHit& hit : answers) {
-    EXPECT_FALSE(hit.found());
-    EXPECT_EQ(hit.cast.status, Status::miss);
+  empty.closest_hits({}, {}, counts);
+  for (const std::size_t count : {8u, 40u}) {
+    const auto asked = mixed_rays(random, count, 1);
+    std::vector<WorldHit> answers(count);
+    std::vector<std::uint8_t> met(count, 1);
+    empty.closest_hits(asked, answers, counts);
+    empty.occluded(std::span<const WorldRay>(asked), met, counts);
+    EXPECT_EQ(met, std::vector<std::uint8_t>(count, 0));
+    for (const WorldHit& hit : answers) {
+      EXPECT_FALSE(hit.found());
+      EXPECT_EQ(hit.cast.status, Status::miss);
+    }
   }
+  EXPECT_EQ(counts.nodes, 0u);
 }
 
 TEST(WorldRays, of_instances_at_the_same_t_the_first_is_met) {
@@ -87,21 +144,26 @@ TEST(WorldRays, of_instances_at_the_same_t_the_first_is_met) {
 }
 
 // Rays that come together find what is exhausted, too.
-TEST(WorldRays, other_solvers_are_asked_one_by_one) {
+TEST(WorldRays, of_other_solvers_are_answered_as_single_rays) {
   Scatter random;
   CastOptions impatient;
   impatient.solver = SolverKind::paper;
   impatient.max_iterations = 3;
-  const World world(scattered_shapes(100, random), impatient);
-  QueryCounts together, alone;
-  for (int i = 0; i < 100; ++i) {
-    const auto asked = bundle(random, 0, 16, 1);
-    std::vector<WorldHit> answers(asked.size());
-    world.closest_hits(asked, answers, together);
-    for (std::size_t k = 0; k < asked.size(); ++k)
-      EXPECT_TRUE(same(answers[k], world.closest_hit(asked[k].ray, alone, asked[k].skip)));
+  for (const int at_once : {16, 500}) {
+    const World world(
+        at_once < 100 ? scattered_shapes(100, random) : scattered_instances(200, random),
+        impatient);
+    QueryCounts together, alone;
+    for (int begin = 0; begin < 1600; begin += at_once) {
+      const auto asked =
+          mixed_rays(random, static_cast<std::size_t>(at_once), world.instances().size());
+      std::vector<WorldHit> answers(asked.size());
+      world.closest_hits(asked, answers, together);
+      for (std::size_t k = 0; k < asked.size(); ++k)
+        EXPECT_TRUE(same(answers[k], world.closest_hit(asked[k], alone)));
+    }
+    EXPECT_GT(together.exhausted, 0u);
   }
-  EXPECT_GT(together.exhausted, 0u);
 }
 
 TEST(WorldRays, the_build_of_the_hierarchy_does_not_show) {
@@ -125,17 +187,6 @@ std::vector<WorldRay> camera_rays(Scatter& random, std::size_t count) {
   if (random.within(0, 1) < 0.3)
     for (WorldRay& ray : rays) ray.ray.t_max = random.within(0.2, 2);
   return rays;
-}
-
-void expect_single_answers(const World& world, std::span<const WorldRay> rays, int& hits) {
-  QueryCounts counts;
-  std::vector<WorldHit> answers(rays.size());
-  world.closest_hits(rays, answers, counts);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const WorldHit alone = world.closest_hit(rays[i], counts);
-    ASSERT_TRUE(same(answers[i], alone)) << i;
-    hits += alone.found();
-  }
 }
 
 TEST(WorldRays, blocks_of_camera_rays_answer_as_single_rays) {
@@ -164,11 +215,11 @@ TEST(WorldRays, blocks_of_camera_rays_answer_as_single_rays) {
     worlds.emplace_back(std::move(hulls));
   }
   for (const World& world : worlds) {
-    int hits = 0;
+    Compared compared;
     for (const std::size_t count : {16u, 40u, 64u, 100u, 640u})
       for (int round = 0; round < 40; ++round)
-        expect_single_answers(world, camera_rays(random, count), hits);
-    EXPECT_GT(hits, 40 * 860 / 50);
+        compared.with_single_rays(world, camera_rays(random, count));
+    compared.expect_parts(0.02, 1);
   }
 }
 
@@ -178,14 +229,14 @@ TEST(WorldRays, rays_of_a_block_meet_what_is_shown_to_their_kind) {
   for (std::size_t i = 0; i < shapes.size(); ++i)
     shapes.show_to(i, static_cast<RayKinds>(1 + i % 3));
   const World world(std::move(shapes));
-  int hits = 0;
+  Compared compared;
   for (int round = 0; round < 60; ++round) {
     auto rays = camera_rays(random, 64);
     for (WorldRay& ray : rays) ray.kinds = static_cast<RayKinds>(1 << round % 2);
     if (round % 3 == 0) rays[round].kinds = 3;
-    expect_single_answers(world, rays, hits);
+    compared.with_single_rays(world, rays);
   }
-  EXPECT_GT(hits, 300);
+  EXPECT_GT(compared.hits, 300u);
 }
 
 // One world is the tree around the moved instances, the other a tree rebuilt from them.
