@@ -28,8 +28,9 @@ class SweptPortal {
     if (memory && memory->has_axis()) {
       if (query_.judge(memory->axis, query_.support(memory->axis))) return query_.result;
     }
+    if (is_smooth() && SlidingPortal<A, B>(query_).run(first_normal())) return query_.result;
     portal_[0] = query_.support(-query_.along);
-    if (query_.judge(-query_.along, portal_[0]) || !surround() || refine()) return query_.result;
+    if (!query_.judge(-query_.along, portal_[0]) && surround()) refine();
     return query_.result;
   }
 
@@ -37,6 +38,24 @@ class SweptPortal {
   static constexpr int most_turns = 200;
   /// Number of portal iterations before sliding features take over.
   static constexpr int turns_plain = 3;
+
+  /// True if C has no sharp corners. Sliding features then converge without a portal.
+  bool is_smooth() const {
+    constexpr double of_size = 0.15;
+    const bool has_ellipsoid =
+        query_.pair.a.kind == CoreKind::ellipsoid || query_.pair.b.kind == CoreKind::ellipsoid;
+    return can_slide_ && (has_ellipsoid || query_.radius > of_size * query_.size);
+  }
+
+  /// Normal where the motion meets a ball around C's middle.
+  Vec3<double> first_normal() const {
+    const Vec3<double>&u = query_.along, aside = query_.pair.x - query_.pair.x.dot(u) * u;
+    constexpr double of_size = 0.8, most = 0.9;
+    const double radius = of_size * query_.size, sine = aside.norm() / radius,
+                 turn = std::min(sine, most);
+    const double share = sine > 0 ? turn / (sine * radius) : 0;
+    return share * aside - std::sqrt(1 - turn * turn) * u;
+  }
 
   /// Finds three points whose projections enclose the origin. Returns false for a miss, or if
   /// undecided.
@@ -87,12 +106,15 @@ class SweptPortal {
   /// j.
   double side(int i, int j) const { return cross(portal_[i], portal_[j]); }
 
-  /// Moves the portal outwards until both bounds meet. Always returns true.
-  bool refine() {
+  /// Moves the portal outwards until both bounds meet, or as far as rounding allows.
+  void refine() {
     for (int turn = 0; turn < most_turns; ++turn) {
       const double area = side(0, 1) + side(1, 2) + side(2, 0);
       query_.pierce(portal_[0], portal_[1], portal_[2]);
-      if (query_.has_met()) return query_.end_hit();
+      if (query_.has_met()) {
+        query_.end_hit();
+        return;
+      }
       Vec3<double> n = (portal_[1].y - portal_[0].y).cross(portal_[2].y - portal_[0].y);
       if (n.dot(query_.along) > 0) n = -n;
       if (can_slide_ && turn >= turns_plain && n.dot(query_.along) < 0) {
@@ -101,12 +123,15 @@ class SweptPortal {
         const double weights[3] = {side(1, 2) / area, side(2, 0) / area, side(0, 1) / area};
         for (int i = 0; i < 3; ++i)
           sliding.add(portal_[i].feature_a, portal_[i].feature_b, weights[i]);
-        if (sliding.run(n)) return true;
+        if (sliding.run(n)) return;
       }
-      if (!(n.squaredNorm() > 0)) return true;
+      if (!(n.squaredNorm() > 0)) return;
       const SweptPoint w = query_.support(n);
-      if (query_.judge(n, w)) return true;
-      if (query_.has_met()) return query_.end_hit();
+      if (query_.judge(n, w)) return;
+      if (query_.has_met()) {
+        query_.end_hit();
+        return;
+      }
       // The new point divides the triangle into three; this keeps the one that contains the origin.
       const double sign = area < 0 ? -1 : 1, at0 = sign * cross(portal_[0], w),
                    at1 = sign * cross(portal_[1], w), at2 = sign * cross(portal_[2], w);
@@ -117,9 +142,8 @@ class SweptPortal {
       else if (at2 <= 0 && at0 >= 0)
         portal_[1] = w;
       else
-        return true;
+        return;
     }
-    return true;
   }
 
   SweptQuery<A, B> query_;

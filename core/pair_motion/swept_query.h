@@ -111,9 +111,10 @@ struct SweptQuery {
 
   /// Applies the bound that the plane with normal n through w proves. Returns true if the plane
   /// proves a miss.
-  bool judge(const Vec3<double>& n, const SweptPoint& w) {
-    const double length = n.norm(), gap = n.dot(w.y) - rounding * length,
-                 approach = -n.dot(velocity);
+  bool judge(const Vec3<double>& n, const SweptPoint& w) { return judge(n, n.norm(), n.dot(w.y)); }
+  /// Same for a normal of the given length and the least n.y of C.
+  bool judge(const Vec3<double>& n, double length, double least) {
+    const double gap = least - rounding * length, approach = -n.dot(velocity);
     if (!(approach > 0)) {
       if (!(gap > near * length)) return false;
       end(SweptStatus::miss, n);
@@ -129,6 +130,13 @@ struct SweptQuery {
       result.axis = n / length;
     }
     return false;
+  }
+
+  /// Takes a time at which `at`, a point of A, is also a point of B as an upper bound.
+  void lower_t_hi(double t, const Vec3<double>& at) {
+    if (!(t < result.t_hi)) return;
+    result.t_hi = t;
+    result.a = at;
   }
 
   /// Tests whether the origin is inside the triangle at the time at which the origin is in the
@@ -153,11 +161,7 @@ struct SweptQuery {
     const double p = of_r * r.p + of_s * s.p + of_t * t.p, q = of_r * r.q + of_s * s.q + of_t * t.q,
                  h = of_r * r.h + of_s * s.h + of_t * t.h - rise_p * p - rise_q * q,
                  allowed = rounding * (1 + std::abs(rise_p) + std::abs(rise_q));
-    const double time = (allowed - h) / speed;
-    if (time < result.t_hi) {
-      result.t_hi = time;
-      result.a = of_r * r.a + of_s * s.a + of_t * t.a;
-    }
+    lower_t_hi((allowed - h) / speed, of_r * r.a + of_s * s.a + of_t * t.a);
     return true;
   }
 
