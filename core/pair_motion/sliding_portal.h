@@ -32,12 +32,14 @@ class SlidingPortal {
   }
 
   /// Searches from the normal `first`, which faces against the motion; without a portal, from its
-  /// support point. Returns true if the search decided the query.
-  bool run(const Vec3<double>& first) {
+  /// support point. `damping` (relative to the size) damps the first steps: the further `first` is
+  /// from the best normal, the more rims and corners need. Returns true if the search decided the
+  /// query.
+  bool run(const Vec3<double>& first, double damping) {
     const CorePair& pair = query_.pair;
     Vec3<double> nd = first / -first.dot(query_.along), best = nd;
     double highest = -std::numeric_limits<double>::infinity();
-    double damping = first_damping, if_diverging = least_damping_after_divergence;
+    double if_diverging = least_damping_after_divergence;
     for (int step = 0; step < most_turns; ++step) {
       const DifferencePoint found = query_.nearest(nd);
       const double length = nd.norm(), inverse = 1 / length;
@@ -74,7 +76,7 @@ class SlidingPortal {
         const Vec3<double> a = is_same_a ? found.a : point_of_feature<A>(pair.a, on_a, nd),
                            b = is_same_b ? found.b : point_of_feature<B>(pair.b, on_b, of_b);
         const bool is_same = is_same_a && is_same_b;
-        set_bound(i, nd, is_same ? y : Vec3<double>(pair.x + pair.turn * b - a - growth));
+        set_bound(i, nd, is_same ? y : Vec3<double>(pair.x + pair.turn * b - a - growth), a);
         p += weight_[i] * p_[i];
         q += weight_[i] * q_[i];
         is_known |= is_same;
@@ -89,7 +91,7 @@ class SlidingPortal {
       if (!is_known) {
         if (count_ == 4) return false;
         append(found.feature_a, found.feature_b, 0);
-        set_bound(count_ - 1, nd, y);
+        set_bound(count_ - 1, nd, y, found.a);
       }
       if (!advance(S, damping, nd)) return false;
       damping = step < turns_damped ? 0.1 * damping : 0;
@@ -99,10 +101,8 @@ class SlidingPortal {
 
  private:
   static constexpr int most_turns = 12, turns_damped = 7;
-  /// Damping is relative to the size. Pairs of a face and a rim need it, since their bound falls
-  /// steeply beyond the rim.
-  static constexpr double first_damping = 0.1, least_damping_after_divergence = 0.3,
-                          most_damping = 10;
+  /// Damping when the search starts again.
+  static constexpr double least_damping_after_divergence = 0.3, most_damping = 10;
   /// Distance of the weighted point from the line of motion at the best normal, relative to the
   /// size. The bound's error is of the order of its square.
   static constexpr double stationary = 3e-8;
@@ -113,8 +113,11 @@ class SlidingPortal {
     weight_[count_++] = weight;
   }
 
-  /// Sets the bound that feature i gives for the normal nd, by its point y.
-  void set_bound(int i, const Vec3<double>& nd, const Vec3<double>& y) {
+  /// Sets the bound that feature i gives for the normal nd, by its point y and the point a of A's
+  /// core.
+  void set_bound(int i, const Vec3<double>& nd, const Vec3<double>& y, const Vec3<double>& a) {
+    y_[i] = y;
+    a_[i] = a;
     t_[i] = nd.dot(y);
     p_[i] = query_.e0.dot(y);
     q_[i] = query_.e1.dot(y);
@@ -294,7 +297,9 @@ class SlidingPortal {
         pierce_any(f, 4);
       }
     } else if (count_ > 2) {
-      for (int i = 0; i < count_; ++i) f[i] = on_feature(i, nd);
+      const Vec3<double> growth = (query_.pair.a.radius / length) * nd;
+      for (int i = 0; i < count_; ++i)
+        f[i] = query_.in_shadow(y_[i], a_[i] + growth, feature_a_[i], feature_b_[i]);
       pierce_any(f, count_);
     }
     if (query_.has_met()) return query_.end_hit();
@@ -321,6 +326,7 @@ class SlidingPortal {
   int feature_a_[4], feature_b_[4];
   double weight_[4];
   double t_[4], p_[4], q_[4];  ///< bounds of the features, and their points' projections
+  Vec3<double> y_[4], a_[4];   ///< points of the features, of C and of A's core
 };
 
 }  // namespace minkray

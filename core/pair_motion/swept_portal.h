@@ -28,7 +28,10 @@ class SweptPortal {
     if (memory && memory->has_axis()) {
       if (query_.judge(memory->axis, query_.support(memory->axis))) return query_.result;
     }
-    if (is_smooth() && SlidingPortal<A, B>(query_).run(first_normal())) return query_.result;
+    if (can_slide_ && (is_smooth() || have_rims())) {
+      const double damping = is_smooth() ? near_damping : far_damping;
+      if (SlidingPortal<A, B>(query_).run(first_normal(), damping)) return query_.result;
+    }
     portal_[0] = query_.support(-query_.along);
     if (!query_.judge(-query_.along, portal_[0]) && surround()) refine();
     return query_.result;
@@ -38,13 +41,17 @@ class SweptPortal {
   static constexpr int most_turns = 200;
   /// Number of portal iterations before sliding features take over.
   static constexpr int turns_plain = 3;
+  static constexpr double near_damping = 0.1, far_damping = 1;
 
-  /// True if C has no sharp corners. Sliding features then converge without a portal.
+  /// True if C is round. Sliding features then converge without a portal.
   bool is_smooth() const {
     constexpr double of_size = 0.15;
-    const bool has_ellipsoid =
-        query_.pair.a.kind == CoreKind::ellipsoid || query_.pair.b.kind == CoreKind::ellipsoid;
-    return can_slide_ && (has_ellipsoid || query_.radius > of_size * query_.size);
+    return query_.pair.a.kind == CoreKind::ellipsoid || query_.pair.b.kind == CoreKind::ellipsoid ||
+           query_.radius > of_size * query_.size;
+  }
+  /// True for two cylinders or cones, which have few corners.
+  bool have_rims() const {
+    return query_.pair.a.kind == CoreKind::disks && query_.pair.b.kind == CoreKind::disks;
   }
 
   /// Normal where the motion meets a ball around C's middle.
@@ -123,7 +130,7 @@ class SweptPortal {
         const double weights[3] = {side(1, 2) / area, side(2, 0) / area, side(0, 1) / area};
         for (int i = 0; i < 3; ++i)
           sliding.add(portal_[i].feature_a, portal_[i].feature_b, weights[i]);
-        if (sliding.run(n)) return;
+        if (sliding.run(n, near_damping)) return;
       }
       if (!(n.squaredNorm() > 0)) return;
       const SweptPoint w = query_.support(n);
