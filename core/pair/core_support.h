@@ -115,7 +115,7 @@ inline CoreSupport support_of_core(const ShapeCore& core, const Vec3<double>& d)
   }
 }
 
-/// A symmetric 3 x 3 matrix, to which outer products t t^T are added.
+/// A symmetric 3 x 3 matrix, to which outer products k t t^T are added.
 struct Symmetric {
   double xx = 0, yy = 0, zz = 0, xy = 0, xz = 0, yz = 0;
 
@@ -126,6 +126,12 @@ struct Symmetric {
     xy += k * t.x() * t.y();
     xz += k * t.x() * t.z();
     yz += k * t.y() * t.z();
+  }
+  /// Adds k times the diagonal matrix of the squares of r.
+  void add_squares(double k, const Vec3<double>& r) {
+    xx += k * r.x() * r.x();
+    yy += k * r.y() * r.y();
+    zz += k * r.z() * r.z();
   }
   void add_all(double k, const Symmetric& other) {
     xx += k * other.xx;
@@ -141,27 +147,37 @@ struct Symmetric {
   }
 };
 
-/// Adds `weight` times the derivative of the feature's point with respect to the direction d,
-/// rotated by `turn`. `point` is the feature's point.
-template <CoreKind K>
-inline void add_curvature(Symmetric& S, double weight, const ShapeCore& core,
-                          const Mat3<double>& turn, int feature, const Vec3<double>& d,
-                          const Vec3<double>& point) {
+/// Adds to a matrix in A's frame what is given in B's frame; `turn` rotates B's frame to A's.
+struct TurnedSum {
+  Symmetric& sum;
+  const Mat3<double>& turn;
+
+  void add(double k, const Vec3<double>& t) { sum.add(k, turn * t); }
+  void add_squares(double k, const Vec3<double>& r) {
+    for (int i = 0; i < 3; ++i) sum.add(k * r[i] * r[i], turn.col(i));
+  }
+};
+
+/// Adds `weight` times the derivative of the feature's point with respect to the direction d to
+/// `sum`, in the core's frame. `point` is the feature's point.
+template <CoreKind K, class Sum>
+inline void add_curvature(Sum&& sum, double weight, const ShapeCore& core, int feature,
+                          const Vec3<double>& d, const Vec3<double>& point) {
   if constexpr (K == CoreKind::disks) {
     const double rim = feature != 0 ? core.size.y() : core.size.x();
     const double across = d.x() * d.x() + d.y() * d.y();
     if (!(across > 0) || !(rim > 0)) return;
-    S.add(weight * rim / (across * std::sqrt(across)), d.x() * turn.col(1) - d.y() * turn.col(0));
+    sum.add(weight * rim / (across * std::sqrt(across)), {-d.y(), d.x(), 0});
   } else if constexpr (K == CoreKind::ellipsoid) {
     const Vec3<double>& r = core.size;
     const double k = weight / r.cwiseProduct(d).norm();
-    for (int i = 0; i < 3; ++i) S.add(k * r[i] * r[i], turn.col(i));
-    S.add(-k, turn * point);
+    sum.add_squares(k, r);
+    sum.add(-k, point);
   } else if constexpr (K == CoreKind::other) {
     if (core.kind == CoreKind::disks)
-      add_curvature<CoreKind::disks>(S, weight, core, turn, feature, d, point);
+      add_curvature<CoreKind::disks>(sum, weight, core, feature, d, point);
     if (core.kind == CoreKind::ellipsoid)
-      add_curvature<CoreKind::ellipsoid>(S, weight, core, turn, feature, d, point);
+      add_curvature<CoreKind::ellipsoid>(sum, weight, core, feature, d, point);
   }
 }
 

@@ -229,9 +229,9 @@ bool SlidingFeatures<A, B>::run(const Vec3<double>& d, double damping) {
       v += weight_[i] * z[i];
       on_a += weight_[i] * a;
       is_known |= is_same_a && is_same_b;
-      add_curvature<A>(S, weight_[i], query_.pair.a, Mat3<double>::Identity(), feature_a_[i], nd,
-                       a);
-      add_curvature<B>(S, weight_[i], query_.pair.b, query_.pair.turn, feature_b_[i], of_b, b);
+      add_curvature<A>(S, weight_[i], query_.pair.a, feature_a_[i], nd, a);
+      add_curvature<B>(TurnedSum{S, query_.pair.turn}, weight_[i], query_.pair.b, feature_b_[i],
+                       of_b, b);
     }
     if (v.norm() - query_.result.lower <= query_.gap)
       return query_.end_at(CoreStatus::separated, on_a, v);
@@ -319,9 +319,9 @@ bool SlidingFeatures<A, B>::step_to_peak(const Vec3<double>& n, Vec3<double>& ne
     if (weight_[i] < weight_[least]) least = i;
     sharp_a_ += weight_[i] * a[i];
     sharp_c_ += weight_[i] * c[i];
-    add_curvature<A>(S, weight_[i], query_.pair.a, Mat3<double>::Identity(), feature_a_[i], n,
-                     a[i]);
-    add_curvature<B>(S, weight_[i], query_.pair.b, query_.pair.turn, feature_b_[i], of_b, b[i]);
+    add_curvature<A>(S, weight_[i], query_.pair.a, feature_a_[i], n, a[i]);
+    add_curvature<B>(TurnedSum{S, query_.pair.turn}, weight_[i], query_.pair.b, feature_b_[i], of_b,
+                     b[i]);
   }
   const double depth = -n.dot(sharp_c_);
   if (count_ == 1) return climb(S, depth, n, sharp_c_, next);

@@ -1,55 +1,35 @@
 // SPDX-License-Identifier: MIT
-// Derivatives of features' points with respect to the direction, across a motion: symmetric 2 x 2
-// matrices over two unit vectors e0 and e1. Same as add_curvature (core_support.h), which has all
-// three dimensions.
+// Curvature across a motion: a symmetric 2 x 2 matrix over two unit vectors e0 and e1. A third as
+// many numbers as in space, and the search needs no others.
 #pragma once
 
-#include "core/pair/core_support.h"
+#include "core/math/vec.h"
 
 namespace minkray {
 
 struct AcrossMotion {
   double xx = 0, xy = 0, yy = 0;
 
+  /// Adds k t t^T for a vector t with the components x and y.
   void add(double k, double x, double y) {
     xx += k * x * x;
     xy += k * x * y;
     yy += k * y * y;
   }
+};
 
-  /// Adds `weight` times the derivative of the feature's point at the direction d. All vectors are
-  /// in the core's frame.
-  template <CoreKind K>
-  void add(double weight, const ShapeCore& core, const Vec3<double>& e0, const Vec3<double>& e1,
-           int feature, const Vec3<double>& d, const Vec3<double>& point) {
-    if constexpr (K == CoreKind::disks) {
-      const double rim = feature != 0 ? core.size.y() : core.size.x();
-      const double across = d.x() * d.x() + d.y() * d.y();
-      if (!(across > 0) || !(rim > 0)) return;
-      add(weight * rim / (across * std::sqrt(across)), d.x() * e0.y() - d.y() * e0.x(),
-          d.x() * e1.y() - d.y() * e1.x());
-    } else if constexpr (K == CoreKind::ellipsoid) {
-      const Vec3<double>& r = core.size;
-      const double k = weight / r.cwiseProduct(d).norm();
-      const Vec3<double> x = r.cwiseProduct(e0), y = r.cwiseProduct(e1);
-      xx += k * x.squaredNorm();
-      xy += k * x.dot(y);
-      yy += k * y.squaredNorm();
-      add(-k, e0.dot(point), e1.dot(point));
-    } else if constexpr (K == CoreKind::other) {
-      if (core.kind == CoreKind::disks)
-        add<CoreKind::disks>(weight, core, e0, e1, feature, d, point);
-      if (core.kind == CoreKind::ellipsoid)
-        add<CoreKind::ellipsoid>(weight, core, e0, e1, feature, d, point);
-    }
-  }
+/// Adds to a matrix across the motion what is given in the frame of e0 and e1, as Symmetric does
+/// (core/pair/core_support.h).
+struct AcrossSum {
+  AcrossMotion& sum;
+  const Vec3<double>&e0, &e1;
 
-  /// Adds the derivative of a ball's point, for a unit direction with the components x and y. `k`
-  /// is the radius over the direction's length.
-  void add_ball(double k, double x, double y) {
-    xx += k;
-    yy += k;
-    add(-k, x, y);
+  void add(double k, const Vec3<double>& t) { sum.add(k, e0.dot(t), e1.dot(t)); }
+  void add_squares(double k, const Vec3<double>& r) {
+    const Vec3<double> x = r.cwiseProduct(e0), y = r.cwiseProduct(e1);
+    sum.xx += k * x.squaredNorm();
+    sum.xy += k * x.dot(y);
+    sum.yy += k * y.squaredNorm();
   }
 };
 

@@ -80,10 +80,14 @@ class SlidingPortal {
         p += weight_[i] * p_[i];
         q += weight_[i] * q_[i];
         is_known |= is_same;
-        S.add<A>(weight_[i], pair.a, query_.e0, query_.e1, on_a, nd, a);
-        S.add<B>(weight_[i], pair.b, e0_in_b_, e1_in_b_, on_b, of_b, b);
+        add_curvature<A>(AcrossSum{S, query_.e0, query_.e1}, weight_[i], pair.a, on_a, nd, a);
+        add_curvature<B>(AcrossSum{S, e0_in_b_, e1_in_b_}, weight_[i], pair.b, on_b, of_b, b);
       }
-      S.add_ball(query_.radius * inverse, query_.e0.dot(nd) * inverse, query_.e1.dot(nd) * inverse);
+      // The curvature of a ball.
+      const double of_radius = query_.radius * inverse;
+      S.xx += of_radius;
+      S.yy += of_radius;
+      S.add(-of_radius, query_.e0.dot(nd) * inverse, query_.e1.dot(nd) * inverse);
       if (are_level() && p * p + q * q <= stationary * stationary * query_.size * query_.size) {
         if (settle(nd, is_known)) return true;
         if (is_known && count_ < 3) return false;

@@ -2,8 +2,8 @@
 // First contact of a core that moves without turning and a core at rest: a ray cast at C = B - A by
 // portals (G. Snethen, "XenoCollide", in Game Programming Gems 7, 2008). GJK on C projected along
 // the motion finds a portal (three points around the origin) or proves a miss. Support points move
-// the portal outwards; the portal and the supporting plane bound the time. Exact for polytopes; on
-// curved surfaces sliding_portal.h takes over after a few iterations.
+// the portal outwards; the portal and the supporting plane bound the time. Exact for polytopes.
+// Curved pairs use sliding_portal.h: round ones at once, others after a few iterations.
 #pragma once
 
 #include "core/pair_motion/sliding_portal.h"
@@ -118,10 +118,7 @@ class SweptPortal {
     for (int turn = 0; turn < most_turns; ++turn) {
       const double area = side(0, 1) + side(1, 2) + side(2, 0);
       query_.pierce(portal_[0], portal_[1], portal_[2]);
-      if (query_.has_met()) {
-        query_.end_hit();
-        return;
-      }
+      if (query_.has_met() && query_.end_hit()) return;
       Vec3<double> n = (portal_[1].y - portal_[0].y).cross(portal_[2].y - portal_[0].y);
       if (n.dot(query_.along) > 0) n = -n;
       if (can_slide_ && turn >= turns_plain && n.dot(query_.along) < 0) {
@@ -135,10 +132,7 @@ class SweptPortal {
       if (!(n.squaredNorm() > 0)) return;
       const SweptPoint w = query_.support(n);
       if (query_.judge(n, w)) return;
-      if (query_.has_met()) {
-        query_.end_hit();
-        return;
-      }
+      if (query_.has_met() && query_.end_hit()) return;
       // The new point divides the triangle into three; this keeps the one that contains the origin.
       const double sign = area < 0 ? -1 : 1, at0 = sign * cross(portal_[0], w),
                    at1 = sign * cross(portal_[1], w), at2 = sign * cross(portal_[2], w);
