@@ -6,7 +6,6 @@
 #include <cxxabi.h>
 #include <gtest/gtest.h>
 
-#include <cctype>
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -35,13 +34,6 @@ template <class Suite, class Make>
 auto values_asked_for(const Make& make) {
   using Values = std::decay_t<decltype(make())>;
   return ::testing::ValuesIn(may_be_asked_for<Suite>() ? Values(make()) : Values());
-}
-
-/// For the names of parameterised tests: letters, digits and _ alone.
-inline std::string as_test_name(std::string name) {
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c))) c = '_';
-  return name;
 }
 
 }  // namespace minkray::testing

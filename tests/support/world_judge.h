@@ -49,16 +49,16 @@ struct Compared {
   std::size_t rays = 0, hits = 0;
   QueryCounts alone, together;
 
-  void with_single_rays(const World& world, std::span<const WorldRay> asked) {
-    std::vector<WorldHit> answers(asked.size());
-    std::vector<std::uint8_t> met(asked.size());
-    world.closest_hits(asked, answers, together);
-    world.occluded(asked, met, together);
-    for (std::size_t i = 0; i < asked.size(); ++i, ++rays) {
+  void with_single_rays(const World& world, std::span<const WorldRay> batch) {
+    std::vector<WorldHit> answers(batch.size());
+    std::vector<std::uint8_t> met(batch.size());
+    world.closest_hits(batch, answers, together);
+    world.occluded(batch, met, together);
+    for (std::size_t i = 0; i < batch.size(); ++i, ++rays) {
       const std::size_t exhausted = alone.exhausted;
-      const WorldHit hit = world.closest_hit(asked[i], alone);
-      ASSERT_TRUE(same(answers[i], hit)) << "ray " << i << " of " << asked.size();
-      ASSERT_EQ(met[i] != 0, world.occluded(asked[i], alone)) << i;
+      const WorldHit hit = world.closest_hit(batch[i], alone);
+      ASSERT_TRUE(same(answers[i], hit)) << "ray " << i << " of " << batch.size();
+      ASSERT_EQ(met[i] != 0, world.occluded(batch[i], alone)) << i;
       if (alone.exhausted == exhausted) {
         ASSERT_EQ(met[i] != 0, hit.found()) << i;
       }

@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "tests/support/filter_cases.h"
+#include "tests/support/filter_judge.h"
 
 namespace minkray::testing {
 namespace {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
+#include "tests/support/as_test_name.h"
 #include "tests/support/cast_judge.h"
 #include "tests/support/measured_shapes.h"
 #include "tests/support/ray_families.h"

@@ -6,6 +6,7 @@
 #include "core/derived/ellipsoid_sum.h"
 #include "tests/oracle/closed_form.h"
 #include "tests/oracle/portal.h"
+#include "tests/support/as_test_name.h"
 #include "tests/support/ray_families.h"
 #include "tests/support/sample_shapes.h"
 #include "tests/support/values_asked_for.h"

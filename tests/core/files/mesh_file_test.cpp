@@ -455,11 +455,11 @@ TEST(MeshParts, files_cut_off_anywhere_are_refused_as_without_parts_or_lose_no_v
     int refused = 0;
     for (std::size_t length = 0; length <= text.size(); ++length) {
       const std::string_view file = std::string_view(text).substr(0, length);
-      const std::string told = complaint(file, format);
-      refused += !told.empty();
+      const std::string message = complaint(file, format);
+      refused += !message.empty();
       for (const MeshSplit split : splits) {
-        EXPECT_EQ(complaint(file, format, split), told) << length;
-        if (!told.empty()) continue;
+        EXPECT_EQ(complaint(file, format, split), message) << length;
+        if (!message.empty()) continue;
         const MeshParts mesh = mesh_parts(file, format, split);
         EXPECT_EQ(mesh.vertices, mesh_vertices(file, format)) << length;
         std::size_t held = 0;

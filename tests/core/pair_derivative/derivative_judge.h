@@ -214,21 +214,21 @@ class DerivativeJudge {
     for (int i = 0; i < twists; ++i) {
       const UnitTwist twist = random_twist(i % 2 == 0);
       const TwistDerivative& by = twist.of_a ? derivative.a : derivative.b;
-      const Long told = by.by_velocity.dot(twist.velocity) + by.by_turn.dot(twist.turn);
+      const Long message = by.by_velocity.dot(twist.velocity) + by.by_turn.dot(twist.turn);
       const Long length = std::hypot(by.by_velocity.norm(), by.by_turn.norm() / size_);
       const Differences first = differences(twist, 1e-7L * size_);
       const TwistError& bounds = twist.of_a ? bounds_.a : bounds_.b;
       const Long bound =
           bounds.by_velocity * twist.velocity.norm() + bounds.by_turn * twist.turn.norm();
       judged_.bound = std::max(judged_.bound, static_cast<double>(bound / length));
-      Long error = std::abs(first.central - told) + first.unsure;
+      Long error = std::abs(first.central - message) + first.unsure;
       if (judged_.is_flagged || !(error <= agreed * length) || !(error <= bound)) {
         const Truth found = truth(twist);
         if (found.slope != Slope::smooth) {
           judged_.slope = found.slope;
           return;
         }
-        error = std::abs(found.derivative - told);
+        error = std::abs(found.derivative - message);
         judged_.is_within = judged_.is_within && error - 3 * found.unsure <= bound;
       }
       judged_.error = std::max(judged_.error, static_cast<double>(error / length));

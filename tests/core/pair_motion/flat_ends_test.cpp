@@ -31,7 +31,7 @@ Ended random_ended(int kind, RandomShapes& random) {
 }
 
 /// Moves `shape`, turned, so that its lowest point arrives on the end within the rim at the time
-/// `t`, with a tilted velocity. Either body may come first. Returns the result and t's error bound.
+/// `t`, with a tilted velocity. Checks the first contact's time and point, with either body first.
 void arrives(const Ended& ended, const Shape& shape, RandomShapes& random, bool is_second) {
   const Mat3<double> turn = random.turn();
   const Shape turned = Transform{shape, Affine<double>{turn, Vec3<double>::Zero()}};

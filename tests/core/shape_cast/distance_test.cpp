@@ -178,12 +178,12 @@ TEST(Distance, is_looked_for_no_longer_than_asked_and_each_step_is_told) {
     for (int k = 0; k < 50; ++k) {
       DistanceOptions<double, 3> options;
       options.max_iterations = most;
-      int told = 0;
+      int message = 0;
       const auto result =
           distance_between(place(flat), place(thin, random.pose(2)), options,
-                           SubalgorithmKind::projection, [&](const auto&) { ++told; });
-      ASSERT_GT(told, 0) << k;
-      ASSERT_LE(told, result.iterations) << k;
+                           SubalgorithmKind::projection, [&](const auto&) { ++message; });
+      ASSERT_GT(message, 0) << k;
+      ASSERT_LE(message, result.iterations) << k;
       ASSERT_LE(result.iterations, most < 100 ? most : 1000) << k;
     }
   }

@@ -101,11 +101,11 @@ TEST(WorldRays, no_rays_and_no_world) {
   world.closest_hits({}, {}, counts);
   empty.closest_hits({}, {}, counts);
   for (const std::size_t count : {8u, 40u}) {
-    const auto asked = mixed_rays(random, count, 1);
+    const auto batch = mixed_rays(random, count, 1);
     std::vector<WorldHit> answers(count);
     std::vector<std::uint8_t> met(count, 1);
-    empty.closest_hits(asked, answers, counts);
-    empty.occluded(std::span<const WorldRay>(asked), met, counts);
+    empty.closest_hits(batch, answers, counts);
+    empty.occluded(std::span<const WorldRay>(batch), met, counts);
     EXPECT_EQ(met, std::vector<std::uint8_t>(count, 0));
     for (const WorldHit& hit : answers) {
       EXPECT_FALSE(hit.found());
@@ -129,10 +129,10 @@ TEST(WorldRays, of_instances_at_the_same_t_the_first_is_met) {
     QueryCounts counts;
     int hits = 0;
     for (int i = 0; i < 100; ++i) {
-      auto asked = bundle(random, i % 2, 8, 1);
-      for (WorldRay& ray : asked) ray.skip = no_instance;
-      std::vector<WorldHit> answers(asked.size());
-      world.closest_hits(asked, answers, counts);
+      auto batch = bundle(random, i % 2, 8, 1);
+      for (WorldRay& ray : batch) ray.skip = no_instance;
+      std::vector<WorldHit> answers(batch.size());
+      world.closest_hits(batch, answers, counts);
       for (const WorldHit& hit : answers) {
         if (!hit.found()) continue;
         EXPECT_LT(hit.instance, 50u);
@@ -155,12 +155,12 @@ TEST(WorldRays, of_other_solvers_are_answered_as_single_rays) {
         impatient);
     QueryCounts together, alone;
     for (int begin = 0; begin < 1600; begin += at_once) {
-      const auto asked =
+      const auto batch =
           mixed_rays(random, static_cast<std::size_t>(at_once), world.instances().size());
-      std::vector<WorldHit> answers(asked.size());
-      world.closest_hits(asked, answers, together);
-      for (std::size_t k = 0; k < asked.size(); ++k)
-        EXPECT_TRUE(same(answers[k], world.closest_hit(asked[k], alone)));
+      std::vector<WorldHit> answers(batch.size());
+      world.closest_hits(batch, answers, together);
+      for (std::size_t k = 0; k < batch.size(); ++k)
+        EXPECT_TRUE(same(answers[k], world.closest_hit(batch[k], alone)));
     }
     EXPECT_GT(together.exhausted, 0u);
   }

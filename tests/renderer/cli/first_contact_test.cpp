@@ -122,8 +122,8 @@ TEST(FirstContact, files_and_words_of_other_programs_are_told_with_ours) {
       {"a.blend", "BLENDER-v402", "is a Blender file: export it as glTF"},
       {"a.stl", "solid a\n", "is a mesh (STL)"}};
   for (const auto& [name, text, expected] : files) {
-    const std::string told = refusal("info '" + folder.write(name, text) + "'", 3);
-    EXPECT_TRUE(has(told, expected)) << text;
+    const std::string message = refusal("info '" + folder.write(name, text) + "'", 3);
+    EXPECT_TRUE(has(message, expected)) << text;
   }
   // The picture's own name would be that of its output.
   EXPECT_TRUE(

@@ -113,7 +113,7 @@ TEST_F(NothingLost, whichever_call_fails_the_old_file_is_there_and_the_user_is_t
   for (const Command& command : commands) {
     const std::string target = folder_ / command.output, whole = folder_ / "new-" + command.output;
     ASSERT_EQ(shell(make_whole(command)).exit_code, 0);
-    int told = 0;
+    int message = 0;
     for (int at = 1;; ++at) {
       ASSERT_LT(at, most_calls) << command.line();
       std::ofstream(target) << old_content;
@@ -131,7 +131,7 @@ TEST_F(NothingLost, whichever_call_fails_the_old_file_is_there_and_the_user_is_t
         EXPECT_FALSE(matters) << command.line() << ": " << failed;
         EXPECT_TRUE(are_same(target, whole)) << command.line() << ": " << failed;
       } else {
-        ++told;
+        ++message;
         EXPECT_EQ(outcome.exit_code, 4) << command.line() << ": " << failed;
         EXPECT_EQ(text_of_file(target), old_content) << command.line() << ": " << failed;
         EXPECT_TRUE(has(outcome.err, command.output + ": " + std::strerror(error)))
@@ -139,7 +139,7 @@ TEST_F(NothingLost, whichever_call_fails_the_old_file_is_there_and_the_user_is_t
       }
       if (failed.empty()) break;
     }
-    EXPECT_GT(told, 4) << command.line();
+    EXPECT_GT(message, 4) << command.line();
     fs::remove(target);
   }
 }

@@ -131,11 +131,11 @@ TEST_F(ClearanceVerb, every_step_has_a_row_and_the_sweep_is_a_scene_that_renders
 TEST_F(ClearanceVerb, what_is_wrong_is_told) {
   std::ofstream(folder / "wrong.csv") << "swinging\n0\n";
   std::ofstream(folder / "wrong.srdf")
-      << R"(<robot><disable_collisions link1="bob" link2="nobody"/></robot>)";
+      << R"(<robot><disable_collisions link1="bob" link2="absent"/></robot>)";
   expect_exit(3, clearance("--path wrong.csv"),
               {"--path: wrong.csv: line 1: column \"swinging\": no joint has this name"});
   expect_exit(3, clearance("--path swing.csv --srdf wrong.srdf"),
-              {"link2: there is no link \"nobody\""});
+              {"link2: there is no link \"absent\""});
   // The way between the rows is infinite, and became 2^63 parts of a sweep.
   std::ofstream(folder / "far.csv") << "swing\n-1e308\n1e308\n";
   expect_exit(3, clearance("--path far.csv --sweep sweep.json"),

@@ -168,9 +168,9 @@ TEST(DataChannelNames, are_known_or_an_error_that_lists_them) {
   EXPECT_EQ(parse_data_channels("Z,N,Z"), (std::vector<std::string_view>{"Z", "N"}));
   EXPECT_EQ(parse_data_channels("all").size(), data_channels.size());
   for (const char* wrong : {"", "z", "Z,", "N.X", "Z,,N", "depth"}) {
-    const std::string told = message_of<WrongUsage>([&] { parse_data_channels(wrong); });
+    const std::string message = message_of<WrongUsage>([&] { parse_data_channels(wrong); });
     for (const DataChannelDescription& channel : data_channels)
-      EXPECT_TRUE(has(told, channel.name)) << wrong;
+      EXPECT_TRUE(has(message, channel.name)) << wrong;
   }
 }
 

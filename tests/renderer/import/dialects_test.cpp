@@ -95,12 +95,12 @@ TEST(Dialects, of_vendors_name_shapes_and_joints_that_there_are) {
 }
 
 TEST(Dialects, a_missing_parent_is_told_once_and_not_as_a_circle) {
-  const std::string told = mistakes_of(
+  const std::string message = mistakes_of(
       "<robot name=\"r\"><link name=\"a\"/><link name=\"b\"/><joint name=\"j\" type=\"fixed\">"
-      "<parent link=\"nowhere\"/><child link=\"a\"/></joint><joint name=\"k\" type=\"fixed\">"
+      "<parent link=\"absent\"/><child link=\"a\"/></joint><joint name=\"k\" type=\"fixed\">"
       "<parent link=\"a\"/><child link=\"b\"/></joint></robot>");
-  EXPECT_TRUE(has(told, "the link \"nowhere\" not found"));
-  EXPECT_EQ(std::ranges::count(told, '\n'), 0) << told;
+  EXPECT_TRUE(has(message, "the link \"absent\" not found"));
+  EXPECT_EQ(std::ranges::count(message, '\n'), 0) << message;
 }
 
 TEST(Dialects, several_roots_are_told) {
@@ -220,10 +220,10 @@ TEST_F(MeshFolder, missing_meshes_are_one_line_that_names_what_helps) {
              ".stl\"/></geometry></visual>";
   const std::string file =
       folder.write("r.urdf", "<robot name=\"r\"><link name=\"a\">" + links + "</link></robot>");
-  const std::string told = complaint(file);
-  EXPECT_EQ(std::ranges::count(told, '\n'), 1) << told;
-  expect_parts(told, {"; 9 other meshes", "missing meshes: 10", "--package-dir",
-                      "--skip-missing-meshes", "--verbose"});
+  const std::string message = complaint(file);
+  EXPECT_EQ(std::ranges::count(message, '\n'), 1) << message;
+  expect_parts(message, {"; 9 other meshes", "missing meshes: 10", "--package-dir",
+                         "--skip-missing-meshes", "--verbose"});
   ImportOptions verbose;
   verbose.verbose = true;
   EXPECT_EQ(std::ranges::count(complaint(file, verbose), '\n'), 10);
@@ -336,8 +336,8 @@ TEST_F(MeshFolder, formats_are_known_by_content) {
       {"PK\x03\x04", "an archive (ZIP)"},
       {"solid x\n", "a mesh (STL)"}};
   for (const auto& [begin, what] : others) {
-    const std::string told = complaint(folder.write("a.json", begin));
-    EXPECT_TRUE(has(told, what));
+    const std::string message = complaint(folder.write("a.json", begin));
+    EXPECT_TRUE(has(message, what));
   }
 }
 

@@ -102,16 +102,17 @@ TEST_F(HeightFields, of_mjcf_are_pictures_files_or_numbers) {
   EXPECT_EQ(picture->bounds().upper.z(), 2);
   EXPECT_EQ(mesh_of_asset(R"(file="hills.bin" size="1 1 2 0.1")")->vertices().size(),
             25u + 16u + 1u);
-  const auto told = [&](const std::string& asset) {
+  const auto message = [&](const std::string& asset) {
     return complaint(folder_.write("w.xml", "<mujoco><asset><hfield name=\"h\" " + asset +
                                                 "/></asset>" + world + "</mujoco>"));
   };
-  expect_messages(told, {{R"(file="gone.png" size="1 1 2 0.1")", "gone.png"},
-                         {R"(nrow="2" ncol="3" size="1 1 0 0.1")", "four numbers > 0"},
-                         {R"(nrow="2" ncol="3")", "size: missing"},
-                         {R"(nrow="2" ncol="2" size="1 1 1 1" elevation="1 2 3")", "elevation"}});
+  expect_messages(message,
+                  {{R"(file="gone.png" size="1 1 2 0.1")", "gone.png"},
+                   {R"(nrow="2" ncol="3" size="1 1 0 0.1")", "four numbers > 0"},
+                   {R"(nrow="2" ncol="3")", "size: missing"},
+                   {R"(nrow="2" ncol="2" size="1 1 1 1" elevation="1 2 3")", "elevation"}});
   folder_.write("short.bin", std::string("\x02\0\0\0\x02\0\0\0abc", 11));
-  EXPECT_TRUE(has(told(R"(file="short.bin" size="1 1 1 1")"), "a float for each of 2 x 2"));
+  EXPECT_TRUE(has(message(R"(file="short.bin" size="1 1 1 1")"), "a float for each of 2 x 2"));
 }
 
 TEST_F(HeightFields, of_sdf_are_pictures) {

@@ -90,8 +90,9 @@ TEST(HostileXml, numbers_that_are_none_or_too_large_are_told) {
            "<geometry><sphere radius='1'/></geometry></visual></link></robot>";
   };
   for (const char* number : {"nan", "inf", "1e999", "-nan", "0x10", "1,5", "1e", "--1"}) {
-    const std::string told = mistakes_of(link(std::string("<origin xyz='0 0 ") + number + "'/>"));
-    EXPECT_TRUE(has(told, "line 1: <origin>: xyz: must be 3 finite number"));
+    const std::string message =
+        mistakes_of(link(std::string("<origin xyz='0 0 ") + number + "'/>"));
+    EXPECT_TRUE(has(message, "line 1: <origin>: xyz: must be 3 finite number"));
   }
   // Each number is finite, the place of the shape is not.
   const TemporaryFolder folder;
@@ -153,9 +154,9 @@ TEST(HostileXml, names_of_more_than_a_thousand_bytes_are_refused) {
            "' type='grid' count='2 2' spacing='1'><geom size='.1' name='" + name +
            "'/></composite></body></worldbody></mujoco>";
   };
-  const std::string told = mistakes_of(mjcf(longer), "m.xml");
+  const std::string message = mistakes_of(mjcf(longer), "m.xml");
   for (const std::string key : {"class", "prefix", "name"})
-    EXPECT_TRUE(has(told, ": " + key + ": must have at most 1000 bytes (got 1001)"));
+    EXPECT_TRUE(has(message, ": " + key + ": must have at most 1000 bytes (got 1001)"));
   model_of(mjcf(fits), "m.xml");
   expect_told("<robot name='r'>\n<link name='" + longer + "'/></robot>",
               "line 2: <link name=\"nnn");
@@ -323,8 +324,8 @@ TEST(HostileXml, bodies_and_classes_that_are_not_there_are_named) {
       "no defaults for class \"other\"");
   expect_told(
       "<sdf version='1.6'><model name='m'><link name='a'/><joint name='j' type='fixed'>"
-      "<parent>a</parent><child>nobody</child></joint></model></sdf>",
-      "the link \"nobody\" not found", "m.sdf");
+      "<parent>a</parent><child>absent</child></joint></model></sdf>",
+      "the link \"absent\" not found", "m.sdf");
   expect_told(
       "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='revolute'><parent "
       "link='a'/><child link='b'/><mimic joint='none'/></joint></robot>",

@@ -27,7 +27,7 @@ class JointRows : public ::testing::Test {
     options.joint_rows = folder_ / "rows";
     return import_scene(folder_ / "r.xml", options).scene;
   }
-  std::string told(const std::string& text) {
+  std::string message(const std::string& text) {
     return message_of<BadInput>([&] { with(text); });
   }
   TemporaryFolder folder_;
@@ -63,14 +63,14 @@ TEST_F(JointRows, another_last_digit_is_another_scene) {
 }
 
 TEST_F(JointRows, mistakes_are_told_with_their_place) {
-  const std::string all = told(
+  const std::string all = message(
       R"([{"time": 1, "none": 0}, {"time": 1, "push": "far"}, 7, {"time": 2, "ball": [1, 0]}])");
   expect_parts(all, {"/0/none: no joint has this name", "/1/push: must be",
                      "/1/time: must increase", "/2: must be an object", "/3/ball: must be"});
-  EXPECT_TRUE(has(told("[]"), "must have rows"));
-  EXPECT_TRUE(has(told(""), "must have rows"));
-  EXPECT_TRUE(has(told("push\nnan\n"), "finite"));
-  EXPECT_TRUE(has(told(R"({"push": 1e999})"), "push"));
+  EXPECT_TRUE(has(message("[]"), "must have rows"));
+  EXPECT_TRUE(has(message(""), "must have rows"));
+  EXPECT_TRUE(has(message("push\nnan\n"), "finite"));
+  EXPECT_TRUE(has(message(R"({"push": 1e999})"), "push"));
 }
 
 TEST_F(JointRows, are_as_many_as_a_model_takes) {
@@ -85,8 +85,8 @@ TEST_F(JointRows, are_as_many_as_a_model_takes) {
   }
   const std::string complaint =
       "must have at most 4761 rows, for a model of 21000 links, shapes or joints (got ";
-  EXPECT_TRUE(has(told(json + "]"), complaint + "4762)"));
-  EXPECT_TRUE(has(told(csv), "line 4763: " + complaint + "one more)"));
+  EXPECT_TRUE(has(message(json + "]"), complaint + "4762)"));
+  EXPECT_TRUE(has(message(csv), "line 4763: " + complaint + "one more)"));
 }
 
 TEST_F(JointRows, a_quaternion_of_length_zero_turns_nothing) {

@@ -137,11 +137,11 @@ TEST(RobotFiles, become_what_other_loaders_make_of_them) {
 }
 
 TEST(RobotFiles, of_macros_are_told_so_whatever_they_are_called) {
-  const std::string told =
+  const std::string error_text =
       complaint(source_folder() /
                 "tests/robots/files/robot-xml-of-unknown-ending-told-as-bad-json.urdf.xacro");
-  EXPECT_TRUE(has(told, "expand the file first (xacro"));
-  EXPECT_FALSE(has(told, "JSON"));
+  EXPECT_TRUE(has(error_text, "expand the file first (xacro"));
+  EXPECT_FALSE(has(error_text, "JSON"));
 }
 
 /// Every file is in the table, or belongs to one that is.

@@ -79,11 +79,11 @@ TEST(Urdf, mistakes_are_told_all_at_once_with_their_lines) {
 <link name="a"/>
 <link name="b"><collision><geometry><wedge/></geometry></collision>
   <visual><geometry><mesh filename="package://none/x.stl"/></geometry></visual></link>
-<joint name="j" type="revolving"><parent link="a"/><child link="nobody"/></joint>
+<joint name="j" type="revolving"><parent link="a"/><child link="absent"/></joint>
 </robot>)");
   expect_parts(mistakes, {"line 2: <box>: size", "line 3: <link name=\"a\">: name: duplicate link",
                           "line 4: <wedge>: must be one of box", "searched:",
-                          "line 6: <joint name=\"j\">: type", "the link \"nobody\" not found"});
+                          "line 6: <joint name=\"j\">: type", "the link \"absent\" not found"});
 }
 
 TEST(Sdf, poses_are_relative_to_frames_links_and_joints) {

@@ -86,9 +86,9 @@ TEST(Exr, so_are_files_whose_header_is_damaged) {
   const std::vector<unsigned char> bytes = encode_exr(small_image());
   const auto is_refused = [&](std::string_view damaged) {
     std::ofstream(file, std::ios::binary) << damaged;
-    const std::string told = message_of<BadInput>([&] { read_exr_texts(file); });
-    EXPECT_TRUE(told.empty() || told.starts_with(file + ": ")) << told;
-    return !told.empty();
+    const std::string message = message_of<BadInput>([&] { read_exr_texts(file); });
+    EXPECT_TRUE(message.empty() || message.starts_with(file + ": ")) << message;
+    return !message.empty();
   };
   EXPECT_FALSE(is_refused(text_of(bytes)));
   EXPECT_EQ(read_exr_texts(file).at("minkray.command"), "minkray render 'a b'");

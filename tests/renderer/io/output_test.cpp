@@ -146,9 +146,9 @@ TEST_F(Output, tells_early_and_clearly_what_cannot_be_written) {
   for (const std::string& target :
        {path("missing/a.png"), folder_.path().string(), folder_.path().string() + "/",
         std::string(), std::string("/proc/a.png"), path(std::string(300, 'a'))}) {
-    const std::string told = message_of<CannotWrite>([&] { check_writable(target); });
-    EXPECT_NE(told, "") << target;
-    EXPECT_TRUE(has(told, target));
+    const std::string message = message_of<CannotWrite>([&] { check_writable(target); });
+    EXPECT_NE(message, "") << target;
+    EXPECT_TRUE(has(message, target));
     EXPECT_THROW(write_file(target, bytes("x")), CannotWrite) << target;
   }
   EXPECT_EQ(file_count(), 0u);

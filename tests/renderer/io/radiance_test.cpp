@@ -103,24 +103,26 @@ TEST(Radiance, what_is_cut_off_is_told) {
 }
 
 TEST(Radiance, what_is_wrong_is_told) {
-  const auto told = [](const std::string& bytes, std::string_view what) {
+  const auto message = [](const std::string& bytes, std::string_view what) {
     EXPECT_TRUE(has(complaint(bytes), what));
   };
-  told("P6\n2 2\n255\n", "must begin with #?RADIANCE");
-  told("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\nabcd", "must have FORMAT=32-bit_rle_rgbe");
+  message("P6\n2 2\n255\n", "must begin with #?RADIANCE");
+  message("#?RADIANCE\nFORMAT=32-bit_rle_xyze\n\n-Y 1 +X 1\nabcd",
+          "must have FORMAT=32-bit_rle_rgbe");
   for (const char* size :
        {"+Y 1 +X 1", "-Y 1 -X 1", "-Y 1", "-Y -1 +X 1", "-Y 99999999999 +X 1", ""})
-    told("#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n" + std::string(size) + "\nabcd", "must give its size");
-  told(header(0, 4), "must have pixels (got 0 x 4)");
-  told(header(20000, 20000), "must have at most 2^27 pixels (got 20000 x 20000)");
-  told(header(10000, 10000) + "abcd", "is too short for 10000 x 10000 pixels");
+    message("#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n" + std::string(size) + "\nabcd",
+            "must give its size");
+  message(header(0, 4), "must have pixels (got 0 x 4)");
+  message(header(20000, 20000), "must have at most 2^27 pixels (got 20000 x 20000)");
+  message(header(10000, 10000) + "abcd", "is too short for 10000 x 10000 pixels");
   // Rows of eight.
   const std::string of_eight("\x02\x02\x00\x08", 4), rest(40, '\x81');
-  told(header(8, 1) + std::string("\x02\x02\x00\x09", 4) + rest, "row 0 must have 8 pixels");
-  told(header(8, 1) + of_eight + "\x89" + rest, "row 0 has a run beyond its end");
-  told(header(8, 1) + of_eight + "\x09" + rest, "row 0 has a run beyond its end");
-  told(header(8, 1) + of_eight + std::string(40, '\0'), "ends in row 0 of 1");
-  told(header(2, 1) + "\x80\x80\x80\x80\x01\x01\x01\x05", "runs of an old kind");
+  message(header(8, 1) + std::string("\x02\x02\x00\x09", 4) + rest, "row 0 must have 8 pixels");
+  message(header(8, 1) + of_eight + "\x89" + rest, "row 0 has a run beyond its end");
+  message(header(8, 1) + of_eight + "\x09" + rest, "row 0 has a run beyond its end");
+  message(header(8, 1) + of_eight + std::string(40, '\0'), "ends in row 0 of 1");
+  message(header(2, 1) + "\x80\x80\x80\x80\x01\x01\x01\x05", "runs of an old kind");
 }
 
 }  // namespace

@@ -34,11 +34,11 @@ TEST(Progress, the_noise_is_about_the_error_of_the_picture) {
   const Scene scene = lit_ball({40, 30});
   const World world = make_world(scene);
   const Image truth = render(scene, world, small_picture(4096)).image;
-  double told = -1;
+  double message = -1;
   int times = 0;
   RenderWatch watch;
   watch.noise = [&](double noise) {
-    told = noise;
+    message = noise;
     ++times;
   };
   watch.progress = [](double, std::uint64_t) {};
@@ -49,7 +49,7 @@ TEST(Progress, the_noise_is_about_the_error_of_the_picture) {
              std::max(double{truth.pixels[i].mean()}, 0.02) /
              static_cast<double>(truth.pixels.size());
   EXPECT_EQ(times, 6);  // once per tile
-  EXPECT_NEAR(told, rendering.noise, 1e-12);
+  EXPECT_NEAR(message, rendering.noise, 1e-12);
   EXPECT_GT(rendering.noise, error);
   EXPECT_LT(rendering.noise, 6 * error);
   const Rendering finer = render(scene, world, small_picture(256));

@@ -89,8 +89,8 @@ TEST(ParseJson, of_very_many_mistakes_the_first_are_told) {
 TEST(ParseJson, of_very_many_names_the_first_are_told) {
   std::vector<std::string> names;
   for (int i = 0; i < 43; ++i) names.push_back("name_" + std::to_string(i));
-  const std::string told = suggestion("nothing alike", names);
-  EXPECT_TRUE(told.ends_with("name_38, name_39 and 3 more")) << told;
+  const std::string message = suggestion("nothing alike", names);
+  EXPECT_TRUE(message.ends_with("name_38, name_39 and 3 more")) << message;
   EXPECT_EQ(suggestion("nmae_42", names), "did you mean \"name_42\"?");
 }
 

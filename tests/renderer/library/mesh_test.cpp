@@ -106,13 +106,13 @@ TEST(LibraryMesh, tells_programs_no_more_than_their_structs_have_room_for) {
   minkray_file_options options = {};
   options.meshes = "neither";
   options.size = offsetof(minkray_file_options, meshes);
-  const auto told = [&] {
+  const auto message = [&] {
     minkray_scene_add_file(scene.handle(), "none.urdf", &options, nullptr);
     return std::string(minkray_last_error());
   };
-  EXPECT_FALSE(has(told(), "options.meshes"));
+  EXPECT_FALSE(has(message(), "options.meshes"));
   options.size = sizeof options;
-  EXPECT_TRUE(has(told(), "options.meshes: must be \"hull\" or \"exact\" (got \"neither\")"));
+  EXPECT_TRUE(has(message(), "options.meshes: must be \"hull\" or \"exact\" (got \"neither\")"));
 }
 
 TEST(LibraryMesh, has_distances_to_its_surface) {

@@ -170,15 +170,15 @@ TEST(LibraryPairs, derivatives_are_slopes_in_long_double) {
     if (is_ridge[i] != 0) continue;
     ++checked;
     for (int axis = 0; axis < 6; ++axis) {
-      const double told = axis < 3 ? by_b[i].velocity[static_cast<std::size_t>(axis)]
-                                   : by_b[i].turn[static_cast<std::size_t>(axis - 3)];
+      const double message = axis < 3 ? by_b[i].velocity[static_cast<std::size_t>(axis)]
+                                      : by_b[i].turn[static_cast<std::size_t>(axis - 3)];
       double least = 1;
       for (const double step : {1e-4, 1e-6}) {
         const auto at = [&](double by) {
           return distance_of_capsules(at_a[i], twisted(at_b[i], axis, by), half, radii);
         };
         const long double slope = (at(step) - at(-step)) / (2 * static_cast<long double>(step));
-        least = std::min(least, static_cast<double>(std::abs(slope - told)));
+        least = std::min(least, static_cast<double>(std::abs(slope - message)));
       }
       EXPECT_LT(least, 1e-6) << i << " " << axis;
     }

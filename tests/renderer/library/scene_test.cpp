@@ -361,9 +361,9 @@ TEST(LibraryScene, what_takes_long_is_told_of_and_can_be_stopped) {
   struct Told {
     int calls = 0;
     double last = 0;
-  } told;
+  } message;
   mk::Options options;
-  options.user = &told;
+  options.user = &message;
   options.progress = [](void* user, double done) {
     auto& heard = *static_cast<Told*>(user);
     EXPECT_GE(done, 0);
@@ -372,7 +372,7 @@ TEST(LibraryScene, what_takes_long_is_told_of_and_can_be_stopped) {
     return heard.calls == 3 ? 1 : 0;
   };
   EXPECT_NE(error_of([&] { scene.cast(rays, hits, options); }, MINKRAY_STOPPED), "");
-  EXPECT_EQ(told.calls, 3);
+  EXPECT_EQ(message.calls, 3);
 }
 
 }  // namespace

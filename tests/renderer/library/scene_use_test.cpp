@@ -48,10 +48,10 @@ TEST(SceneUse, a_progress_callback_cannot_change_the_scene) {
     mk::Hit within;
   };
   for (const int threads : {1, 2}) {
-    Told told{scene, {}, {}};
+    Told message{scene, {}, {}};
     mk::Options options;
     options.threads = threads;
-    options.user = &told;
+    options.user = &message;
     options.progress = [](void* user, double) {
       auto& heard = *static_cast<Told*>(user);
       if (!heard.errors.empty()) return 0;
@@ -60,8 +60,8 @@ TEST(SceneUse, a_progress_callback_cannot_change_the_scene) {
       return 0;
     };
     scene.cast(rays, hits, options);
-    ASSERT_EQ(told.errors.size(), 7u);
-    for (const std::string& error : told.errors) EXPECT_TRUE(has(error, in_use));
+    ASSERT_EQ(message.errors.size(), 7u);
+    for (const std::string& error : message.errors) EXPECT_TRUE(has(error, in_use));
     EXPECT_EQ(scene.size(), size);
     for (std::size_t i = 0; i < rays.size(); ++i) EXPECT_EQ(hits[i].t, alone[i].t);
   }

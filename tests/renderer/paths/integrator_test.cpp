@@ -51,7 +51,7 @@ class Listener final : public RayObserver {
     blocked_ += answer ? 1 : 0;
   }
 
-  std::uint64_t told(RayKind kind) const { return told_[static_cast<std::size_t>(kind)]; }
+  std::uint64_t message(RayKind kind) const { return told_[static_cast<std::size_t>(kind)]; }
   std::uint64_t blocked() const { return blocked_; }
 
  private:
@@ -82,14 +82,14 @@ TEST(Integrator, an_observer_is_told_of_every_ray_and_its_own_answer) {
       integrator.trace(std::span(seen).subspan(first, std::min(together, seen.size() - first)),
                        counts);
     for (std::size_t i = 0; i < rays.size(); ++i) EXPECT_EQ(seen[i].radiance, alone[i].radiance);
-    EXPECT_EQ(listener.told(RayKind::camera), counts.camera);
-    EXPECT_EQ(listener.told(RayKind::shadow), counts.shadow);
-    EXPECT_EQ(listener.told(RayKind::ambient), counts.ambient);
-    EXPECT_EQ(listener.told(RayKind::indirect), counts.scattered + counts.mirrored);
+    EXPECT_EQ(listener.message(RayKind::camera), counts.camera);
+    EXPECT_EQ(listener.message(RayKind::shadow), counts.shadow);
+    EXPECT_EQ(listener.message(RayKind::ambient), counts.ambient);
+    EXPECT_EQ(listener.message(RayKind::indirect), counts.scattered + counts.mirrored);
     EXPECT_EQ(counts.total(), counts_alone.total());
     for (const RayKind kind :
          {RayKind::camera, RayKind::shadow, RayKind::ambient, RayKind::indirect})
-      EXPECT_GT(listener.told(kind), 50u);
+      EXPECT_GT(listener.message(kind), 50u);
     EXPECT_GT(listener.blocked(), 50u);
   }
 }

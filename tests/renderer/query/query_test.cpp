@@ -222,7 +222,7 @@ TEST(Queries, a_wrong_answer_is_complained_about) {
 }
 
 TEST(Queries, mistakes_name_line_key_and_what_was_expected) {
-  const std::pair<const char*, const char*> told[] = {
+  const std::pair<const char*, const char*> message[] = {
       {"{", "q.jsonl:7"},
       {R"({"query":"beam"})", "/query"},
       {R"({"query":"distance","a":{"type":"sphere","radius":-1},"b":{"type":"point"}})",
@@ -237,7 +237,7 @@ TEST(Queries, mistakes_name_line_key_and_what_was_expected) {
        "/shape/points: must not be wider than the largest number"},
       {R"({"query":"ray","shape":{"type":"point"},"ray":{"origin":[1,0,0],"direction":[0,0,0]}})",
        "/ray/direction: must not be zero (got [0, 0, 0])"}};
-  for (const auto& [line, part] : told) EXPECT_TRUE(has(mistakes_of(line), part));
+  for (const auto& [line, part] : message) EXPECT_TRUE(has(mistakes_of(line), part));
 }
 
 /// o + t d is a difference of numbers as large as the origin is far.

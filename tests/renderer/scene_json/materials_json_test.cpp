@@ -210,12 +210,12 @@ TEST_F(Pictures, of_20000_pixels_a_side_and_of_16_bits_in_grey_are_read_or_told)
     large[number + 3] = 20000 % 256;
   }
   write("large.png", large);
-  const auto told = complaints(scene(
+  const auto error_text = complaints(scene(
       R"({"name": "m", "type": "lambert", "color": {"type": "image", "file": "large.png"}},
          {"name": "n", "type": "glossy", "color": {"type": "image", "file": "none.png"}, "roughness": -1},
          {"name": "o", "type": "conductor", "metal": "gold", "roughness": 7})"));
-  ASSERT_EQ(told.size(), 4u);
-  EXPECT_TRUE(has(told[0], "must have at most 2^27 pixels (got 20000 x 20000)"));
+  ASSERT_EQ(error_text.size(), 4u);
+  EXPECT_TRUE(has(error_text[0], "must have at most 2^27 pixels (got 20000 x 20000)"));
 }
 
 TEST_F(Pictures, numbers_of_pictures_are_linear) {

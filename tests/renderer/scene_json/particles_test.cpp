@@ -157,20 +157,20 @@ TEST_F(Particles, mistakes_are_told_with_file_and_row) {
       {"many.csv", "1,2,3,4\n", "", "line 1: must hold 3 numbers (got more)"},
       {"infinite.csv", "1,2,inf\n", "", "line 1: position must be finite (got 1 2 inf)"},
       {"long.csv", std::string(3 << 20, '1'), "", "line 1: must not be longer than 65536 bytes"}};
-  const auto told = [&](const std::string& file, const std::string& keys = "") {
+  const auto error_text = [&](const std::string& file, const std::string& keys = "") {
     return complaint(std::string(box) + R"(, "material": "red", )" + keys + "\"file\": \"" + file +
                      "\"");
   };
   const std::string at = "x.json: /particles/0/file: ";
   for (const auto& [file, bytes, keys, message] : rows) {
     write(file, bytes);
-    EXPECT_EQ(told(file, keys), at + file + ": " + message);
+    EXPECT_EQ(error_text(file, keys), at + file + ": " + message);
   }
-  EXPECT_EQ(told("none.csv"), at + "none.csv: cannot be read: No such file or directory");
+  EXPECT_EQ(error_text("none.csv"), at + "none.csv: cannot be read: No such file or directory");
   for (const std::string file : {"p.txt", "../"})
-    EXPECT_EQ(told(file), at + file + ": its name must end in .csv, .f32 or .f64");
+    EXPECT_EQ(error_text(file), at + file + ": its name must end in .csv, .f32 or .f64");
   std::filesystem::create_directory(folder_ / "folder.csv");
-  EXPECT_EQ(told("folder.csv"), at + "folder.csv: must be a file (got a directory)");
+  EXPECT_EQ(error_text("folder.csv"), at + "folder.csv: must be a file (got a directory)");
 }
 
 TEST_F(Particles, mistakes_in_the_block_are_told_with_their_places) {

@@ -69,18 +69,18 @@ TEST_F(Split, makes_an_object_of_each_part) {
 }
 
 TEST_F(Split, stands_only_beside_a_mesh_file) {
-  const auto told = [&](const std::string& object) {
+  const auto message = [&](const std::string& object) {
     EXPECT_FALSE(read(object));
     return mistakes_.text();
   };
   const std::string file = R"("shape": {"type": "hull", "file": "two.OBJ"}, )";
-  EXPECT_TRUE(has(told(file + R"("split": "group")"), "did you mean \"groups\""));
-  EXPECT_TRUE(has(told(file + R"("split": 3)"), "/objects/0/split"));
+  EXPECT_TRUE(has(message(file + R"("split": "group")"), "did you mean \"groups\""));
+  EXPECT_TRUE(has(message(file + R"("split": 3)"), "/objects/0/split"));
+  EXPECT_TRUE(has(message(R"("shape": {"type": "sphere", "radius": 1}, "split": "groups")"),
+                  "needs a shape"));
+  EXPECT_TRUE(has(message(R"("shape": {"type": "plane"}, "split": "groups")"), "needs a shape"));
   EXPECT_TRUE(
-      has(told(R"("shape": {"type": "sphere", "radius": 1}, "split": "groups")"), "needs a shape"));
-  EXPECT_TRUE(has(told(R"("shape": {"type": "plane"}, "split": "groups")"), "needs a shape"));
-  EXPECT_TRUE(
-      has(told(R"("shape": {"type": "hull", "file": "no.obj"}, "split": "groups")"), "no.obj"));
+      has(message(R"("shape": {"type": "hull", "file": "no.obj"}, "split": "groups")"), "no.obj"));
 }
 
 }  // namespace

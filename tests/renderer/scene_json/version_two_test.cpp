@@ -342,8 +342,8 @@ TEST_F(VersionTwo, mistakes_are_told_with_their_files_and_places) {
                    "keys": [{"time": 0, "color": [1, 1, 1]}]}])"),
        "scene.json: /materials/0/keys/0/color: must change from a colour to a colour"}};
   for (const auto& [text, expected] : cases) {
-    const std::string told = mistakes_of(text);
-    EXPECT_EQ(told.substr(0, expected.size()), expected) << text << "\n" << told;
+    const std::string message = mistakes_of(text);
+    EXPECT_EQ(message.substr(0, expected.size()), expected) << text << "\n" << message;
   }
 }
 

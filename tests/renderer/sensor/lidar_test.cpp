@@ -27,7 +27,7 @@ double elevation(const SensorRay& ray) {
 }
 
 template <class Error>
-std::string told(const std::string& pattern) {
+std::string message(const std::string& pattern) {
   return message_of<Error>([&] { rays_of_pattern(pattern, 0.1); });
 }
 
@@ -59,13 +59,13 @@ TEST(Lidars, have_the_channels_of_their_data_sheets) {
 }
 
 TEST(Lidars, that_are_unknown_are_told_the_names) {
-  EXPECT_TRUE(has(told<WrongUsage>("VLP-17"), "did you mean \"VLP-16\"?"));
-  const std::string all = told<WrongUsage>("blickfeld");
+  EXPECT_TRUE(has(message<WrongUsage>("VLP-17"), "did you mean \"VLP-16\"?"));
+  const std::string all = message<WrongUsage>("blickfeld");
   for (const LidarModel& model : lidar_models()) EXPECT_TRUE(has(all, model.name));
-  EXPECT_TRUE(has(told<WrongUsage>("VLP-16:0"), "VLP-16:STEPS"));
-  EXPECT_TRUE(has(told<WrongUsage>("VLP-16:1.5"), "(got :1.5)"));
-  EXPECT_TRUE(has(told<WrongUsage>("Mid-360:1e12"), "Mid-360:RAYS"));
-  EXPECT_TRUE(has(told<BadInput>("missing.csv"), "missing.csv"));
+  EXPECT_TRUE(has(message<WrongUsage>("VLP-16:0"), "VLP-16:STEPS"));
+  EXPECT_TRUE(has(message<WrongUsage>("VLP-16:1.5"), "(got :1.5)"));
+  EXPECT_TRUE(has(message<WrongUsage>("Mid-360:1e12"), "Mid-360:RAYS"));
+  EXPECT_TRUE(has(message<BadInput>("missing.csv"), "missing.csv"));
 }
 
 TEST(Lidars, the_mid_360_covers_its_field_of_view_and_does_not_repeat) {
@@ -124,7 +124,7 @@ TEST(Lidars, a_range_of_azimuths_has_rays_at_both_ends) {
   }
   for (const char* wrong : {"spinning:1x2:0,0:-200,200", "spinning:1x2:0,0:0",
                             "spinning:1x2:1,0:0,1", "spinning:1x2:0,0:0,1:2", "spinning:0x2"})
-    EXPECT_TRUE(has(told<WrongUsage>(wrong), ":FROM,TO")) << wrong;
+    EXPECT_TRUE(has(message<WrongUsage>(wrong), ":FROM,TO")) << wrong;
 }
 
 TEST(Lidars, are_read_from_files) {
@@ -164,7 +164,7 @@ TEST(Lidars, are_read_from_files) {
   EXPECT_EQ(poses.rays[1].ray.direction, Vec3<double>(0, 1, 0));
 
   const auto refused = [&](const char* name, const std::string& text) {
-    return told<BadInput>(write(name, text));
+    return message<BadInput>(write(name, text));
   };
   EXPECT_TRUE(has(refused("p.mat3x4f", bytes.substr(1)), "got 47 bytes"));
   EXPECT_TRUE(has(refused("p.mat3x4f", std::string(48, '\0')), "pose 0 must"));

@@ -238,7 +238,7 @@ TEST(SensorPathTest, a_column_is_that_of_its_name_before_one_that_begins_so) {
     std::ofstream(folder / "path.csv") << text;
     return read_sensor_path(folder / "path.csv").motion->keys.at(0).translate;
   };
-  const auto told = [&](const std::string& text) -> std::string {
+  const auto message = [&](const std::string& text) -> std::string {
     return message_of<BadInput>([&] { path(text); });
   };
   const Vec3<double> expected(4, 5, 6);
@@ -246,11 +246,11 @@ TEST(SensorPathTest, a_column_is_that_of_its_name_before_one_that_begins_so) {
   EXPECT_EQ(path("time,x_std,y_std,z_std,x,y,z\n0,1,2,3,4,5,6\n"), expected);
   EXPECT_EQ(path("time_ns,Time/s,x1/m,x [m],Y/m,z(m)\n7,0,1,4,5,6\n"), expected);
   EXPECT_EQ(path("timestamp,x_position,y_position,z_position\n0,4,5,6\n"), expected);
-  expect_messages(told, {{"time,x_std,x_mean,y,z\n0,1,4,5,6\n",
-                          "path.csv: line 1: must name one column x (got 2 and 3, \"xstd\" and "
-                          "\"xmean\")"},
-                         {"time,x,y,z,X/m\n0,4,5,6,4\n", "must name one column x (got 2 and 5"},
-                         {"time,x,y\n0,4,5\n", "line 1: must name the column z"}});
+  expect_messages(message, {{"time,x_std,x_mean,y,z\n0,1,4,5,6\n",
+                             "path.csv: line 1: must name one column x (got 2 and 3, \"xstd\" and "
+                             "\"xmean\")"},
+                            {"time,x,y,z,X/m\n0,4,5,6,4\n", "must name one column x (got 2 and 5"},
+                            {"time,x,y\n0,4,5\n", "line 1: must name the column z"}});
 }
 
 TEST(ScanFiles, hold_a_record_of_each_ray) {

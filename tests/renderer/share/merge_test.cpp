@@ -115,8 +115,8 @@ TEST_F(Merge, of_very_many_missing_shares_the_first_are_named) {
   exr.texts[fact::tile] = "1/1048576";
   exr.texts[fact::sample_share] = "1/64";
   write_file(file, encode_exr(exr));
-  const std::string told = complaint({file});
-  EXPECT_TRUE(has(told, "samples 21/64 of tile 1/1048576 and 67108843 more"));
+  const std::string message = complaint({file});
+  EXPECT_TRUE(has(message, "samples 21/64 of tile 1/1048576 and 67108843 more"));
 }
 
 TEST_F(Merge, of_missing_samples_the_others_take_the_place) {

@@ -61,9 +61,9 @@ TEST_F(MeshFolder, gltf_shows_instances_and_default_morphs) {
   const Bounds<double> placed = bounds(instances + R"("TRANSLATION": 2, "SCALE": 4}}})", "");
   EXPECT_NEAR(placed.lower.x(), 0, 1e-12);
   EXPECT_NEAR(placed.upper.x(), 11, 1e-12);
-  const std::string told = complaint(
+  const std::string message = complaint(
       folder.write("w.gltf", gltf_with(instances + R"("TRANSLATION": 0, "SCALE": 4}}})", "", "")));
-  EXPECT_TRUE(has(told, "all of one count"));
+  EXPECT_TRUE(has(message, "all of one count"));
 }
 
 TEST_F(MeshFolder, nodes_have_morph_weights_of_their_own) {

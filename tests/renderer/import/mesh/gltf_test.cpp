@@ -206,14 +206,14 @@ TEST(Gltf, nodes_without_an_extent_are_told) {
 }
 
 TEST(Gltf, mistakes_are_told_all_at_once_with_their_place) {
-  const std::string told = mistakes_of(
+  const std::string message = mistakes_of(
       gltf_document(R"([{"mesh": 7, "children": [1]}, {"rotation": [0, 0, 0, 0], "children": [2]},
                    {"extensions": {"KHR_physics_rigid_bodies":
                       {"collider": {"geometry": {"shape": 9}}}}}])",
                     implicit_shapes),
       "m.gltf");
-  expect_parts(told, {"/nodes/0/mesh: must be the number of one of the 1 meshes",
-                      "/nodes/1/rotation: must not be zero", "geometry/shape: must be"});
+  expect_parts(message, {"/nodes/0/mesh: must be the number of one of the 1 meshes",
+                         "/nodes/1/rotation: must not be zero", "geometry/shape: must be"});
   const auto refused = [](const std::string& text, const std::string& expected) {
     EXPECT_TRUE(has(mistakes_of(text, "m.gltf"), expected));
   };
@@ -290,9 +290,9 @@ TEST(Gltf, what_is_shown_again_and_again_is_told) {
   }
   std::ofstream(folder / "m.gltf")
       << gltf_document("[{\"children\": [" + children + "]}" + nodes + "]");
-  std::string told = message_of<std::runtime_error>(
+  std::string message = message_of<std::runtime_error>(
       [&] { read_gltf_content(folder / "m.gltf", MeshSplit::none, MeshDetail::attributes); });
-  EXPECT_TRUE(has(told,
+  EXPECT_TRUE(has(message,
                   "/meshes: must have at most 200000 vertices, of 132 bytes of buffers (got "
                   "200008)"));
   // Each collider names a node with all those behind it below it.
@@ -303,8 +303,8 @@ TEST(Gltf, what_is_shown_again_and_again_is_told) {
     if (i + 1 < count) node.insert(1, R"("children": [)" + std::to_string(i + 1) + "], ");
     nodes += (i > 0 ? ", " : "") + node;
   }
-  told = mistakes_of(gltf_document(nodes + "]"), "m.gltf");
-  EXPECT_TRUE(has(told, "number of nodes below colliders must be at most 100500"));
+  message = mistakes_of(gltf_document(nodes + "]"), "m.gltf");
+  EXPECT_TRUE(has(message, "number of nodes below colliders must be at most 100500"));
 }
 
 TEST(Gltf, colliders_of_one_node_have_one_hull) {

@@ -248,9 +248,9 @@ TEST(Mjcf, mistakes_are_told_all_at_once_with_their_lines) {
     </body>
   </worldbody>
 </mujoco>)";
-  const std::string told = mistakes_of(text, "robot.xml");
+  const std::string message = mistakes_of(text, "robot.xml");
   expect_parts(
-      told,
+      message,
       {"line 2: <compiler>: angle", "line 4: <geom>: size: of a capsule must be 2 numbers > 0",
        "line 5: <geom>: type", "line 6: <joint>: axis", "line 7: <geom>: size",
        "line 8: <geom>: mesh: no <mesh> is named", "line 9: <replicate>: count: must be"});

@@ -64,10 +64,10 @@ TEST_F(MeshFolder, attached_models_keep_their_own_settings) {
   for (const ModelGeom& geom : model.geoms) red += geom.rgba == Rgba{1, 0, 0, 1} ? 1 : 0;
   EXPECT_EQ(red, 4u);
   // Without end.
-  const std::string told = complaint(
+  const std::string message = complaint(
       folder.write("self.xml", R"(<mujoco><worldbody><body name="b"><attach body="b" prefix="p"/>
     <attach body="b" prefix="q"/></body></worldbody></mujoco>)"));
-  EXPECT_TRUE(has(told, "in a cycle"));
+  EXPECT_TRUE(has(message, "in a cycle"));
 }
 
 TEST_F(MeshFolder, meshes_of_an_included_file_may_lie_beside_it) {
