@@ -110,6 +110,24 @@ def cpp_table(folder):
     return table.text()
 
 
+def python_declarations(folder):
+    """What the module declares: nodes of its stub, and of the modules from which the stub imports."""
+    def nodes_of(name):
+        with open(os.path.join(folder, name), encoding="utf-8") as file:
+            return ast.parse(file.read()).body
+
+    for node in nodes_of("__init__.pyi"):
+        if isinstance(node, ast.ImportFrom) and node.level:
+            names = {one.name for one in node.names}
+            has_stub = os.path.exists(os.path.join(folder, f"{node.module}.pyi"))
+            for other in nodes_of(f"{node.module}.pyi" if has_stub else f"{node.module}.py"):
+                if isinstance(other, (ast.FunctionDef, ast.ClassDef)):
+                    if other.name in names or ("*" in names and other.decorator_list):
+                        yield other
+        else:
+            yield node
+
+
 def python_table(folder):
     """Declarations of the stubs, with the docs of the modules."""
     docs = {}
@@ -127,18 +145,17 @@ def python_table(folder):
                         docs.setdefault(f".{member.name}", ast.get_docstring(member) or "")
     with open(os.path.join(folder, "../bind_shapes.cpp"), encoding="utf-8") as file:
         docs["Shape"] = re.search(r'"Shape",\s*"([^".]*)', file.read())[1]
-    with open(os.path.join(folder, "__init__.pyi"), encoding="utf-8") as file:
-        tree = ast.parse(file.read())
+    nodes = list(python_declarations(folder))
     table = Table()
     table.part("functions")
-    for node in tree.body:
+    for node in nodes:
         if isinstance(node, ast.FunctionDef):
             table.add(node.name, docs[node.name])
     table.part("results and other classes")
-    for node in tree.body:
+    for node in nodes:
         if isinstance(node, ast.ClassDef) and node.name not in ("Scene", "Error"):
             table.add(node.name, docs.get(node.name, ""))
-    for node in tree.body:
+    for node in nodes:
         if isinstance(node, ast.ClassDef) and node.name in ("Scene", "Robot"):
             table.part(node.name)
             for member in node.body:

@@ -54,10 +54,14 @@ def is_plain_function(thing):
 
 class Stubs(unittest.TestCase):
     def setUp(self):
-        with open(os.path.join(FOLDER, "__init__.pyi")) as file:
-            self.tree = ast.parse(file.read())
-        self.stub = {node.name: node for node in self.tree.body if isinstance(node, (ast.FunctionDef, ast.ClassDef))}
-        self.values = {node.target.id for node in self.tree.body if isinstance(node, ast.AnnAssign)}
+        nodes = []
+        for name in "__init__.pyi", "_minkray.pyi", "shapes.py":
+            with open(os.path.join(FOLDER, name)) as file:
+                body = ast.parse(file.read()).body
+            nodes += [node for node in body if name != "shapes.py" or getattr(node, "name", "") in mk.shapes.__all__]
+        self.stub = {node.name: node for node in nodes
+                     if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and node.name != "__getattr__"}
+        self.values = {node.target.id for node in nodes if isinstance(node, ast.AnnAssign)}
 
     def test_have_what_is_public_and_nothing_else(self):
         modules = {name for name in vars(mk) if inspect.ismodule(getattr(mk, name))}
@@ -126,6 +130,15 @@ class Stubs(unittest.TestCase):
         said, complaint, code = api.run(["--cache-dir", os.devnull, "--check-untyped-defs",
                                          "--disallow-any-unimported", *files])
         self.assertEqual(code, 0, said + complaint)
+        with tempfile.NamedTemporaryFile("w", suffix=".py") as file:
+            file.write("import minkray as mk\n" + "".join(f"reveal_type(mk.{name})\n" for name in mk.shapes.__all__))
+            file.flush()
+            said, complaint, code = api.run(["--cache-dir", os.devnull, file.name])
+        self.assertEqual(code, 0, said + complaint)
+        shown = re.findall(r'note: Revealed type is "def \((.*)\) -> minkray._minkray.Shape"', said)
+        self.assertEqual(len(shown), len(mk.shapes.__all__), said)
+        for name, arguments in zip(mk.shapes.__all__, shown):
+            self.assertEqual(re.findall(r"(\w+): ", arguments), list(inspect.signature(getattr(mk, name)).parameters))
 
 
 class Docs(unittest.TestCase):

@@ -20,8 +20,7 @@ from .robots import Robot
 from .scene import Scene
 from .rays import camera, lidar, pinhole
 from .meshes import height_field, mesh, mesh_info
-from .shapes import (box, capsule, cone, custom, cut_cylinder, cylinder, disk, ellipsoid, frustum, hull, make, point,
-                     read_shape, segment, sphere, superellipsoid, tapered_capsule, triangle)
+from .shapes import *
 from .shapes_of_shapes import difference, hull_of, rounded, scaled, sum, swept, transformed, translated
 from .pairs import (BEGINS_INSIDE, IMPACT, NO_IMPACT, OVERLAPPING, SEPARATED, TOUCHING, UNDECIDED,
                     Distance, DistanceStatus, Impact, ImpactStatus, signed_distance, time_of_impact)

@@ -5,10 +5,14 @@ import inspect
 import operator
 import os
 import re
+from typing import Any, Callable, Optional, TypeVar, cast
 
 import numpy as np
 
 from ._minkray import Error, Shape
+
+
+Function = TypeVar("Function", bound=Callable[..., Any])
 
 
 def _called(function, name, arguments, named):
@@ -20,7 +24,8 @@ def _called(function, name, arguments, named):
     try:
         signature.bind(*arguments, **named)
     except TypeError as error:
-        shown = re.sub(r"\(self(, )?", "(", str(signature))
+        plain = [one.replace(annotation=one.empty) for one in signature.parameters.values() if one.name != "self"]
+        shown = inspect.Signature(plain)
         return f"must be called as {name.split('.')[-1]}{shown} ({error})"
     return None
 
@@ -32,13 +37,13 @@ def _plain(text):
     return re.sub(r"(?m)^/(?=\w)", "", text).replace("options.", "")
 
 
-def public(function, name=None):
+def public(function: Function, name: Optional[str] = None) -> Function:
     """Wraps a function: wrong calls raise an `Error` that begins with its name."""
     name = name or function.__qualname__
 
     def failed(detail):
         error = Error(f"{name}: {detail}")
-        error.detail = detail
+        setattr(error, "detail", detail)
         return error
 
     @functools.wraps(function)
@@ -54,7 +59,7 @@ def public(function, name=None):
                 detail = f"an argument has a type that it cannot have (got {kinds})"
             raise failed(detail or str(error)) from (None if detail else error)
 
-    return call
+    return cast(Function, call)
 
 
 def shape_of(value, argument):

@@ -1,7 +1,18 @@
 # SPDX-License-Identifier: MIT
 """Shapes by their parameters, and custom ones."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Callable, Mapping, Optional, Sequence
+
 from . import _minkray
 from .calls import Error, Shape, array_of, name_of, public, shapes_of, text_of, vectors_of
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["box", "capsule", "cone", "custom", "cut_cylinder", "cylinder", "disk", "ellipsoid", "frustum", "hull",
+           "make", "point", "read_shape", "segment", "sphere", "superellipsoid", "tapered_capsule", "triangle"]
 
 
 def _made(kind, shapes=None, **numbers):
@@ -10,7 +21,7 @@ def _made(kind, shapes=None, **numbers):
 
 
 @public
-def make(kind, shapes=None, **numbers):
+def make(kind: str, shapes: Optional[Mapping[str, Sequence[Shape]]] = None, **numbers: ArrayLike) -> Shape:
     """A shape of any kind, by its name in scene files.
 
     Parameters
@@ -42,7 +53,7 @@ def make(kind, shapes=None, **numbers):
 
 
 @public
-def point(position):
+def point(position: ArrayLike) -> Shape:
     """A point.
 
     Parameters
@@ -58,7 +69,7 @@ def point(position):
 
 
 @public
-def segment(a, b):
+def segment(a: ArrayLike, b: ArrayLike) -> Shape:
     """A line segment between two points.
 
     Parameters
@@ -74,7 +85,7 @@ def segment(a, b):
 
 
 @public
-def triangle(a, b, c):
+def triangle(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Shape:
     """A flat triangle.
 
     Parameters
@@ -91,7 +102,7 @@ def triangle(a, b, c):
 
 
 @public
-def sphere(radius):
+def sphere(radius: float) -> Shape:
     """A ball around the origin.
 
     Parameters
@@ -107,7 +118,7 @@ def sphere(radius):
 
 
 @public
-def ellipsoid(radii):
+def ellipsoid(radii: ArrayLike) -> Shape:
     """An ellipsoid around the origin.
 
     Parameters
@@ -123,7 +134,7 @@ def ellipsoid(radii):
 
 
 @public
-def box(half_extents):
+def box(half_extents: ArrayLike) -> Shape:
     """A box around the origin.
 
     Parameters
@@ -139,7 +150,7 @@ def box(half_extents):
 
 
 @public
-def disk(radius):
+def disk(radius: float) -> Shape:
     """A flat disk around the z axis, at z = 0.
 
     Parameters
@@ -155,7 +166,7 @@ def disk(radius):
 
 
 @public
-def cylinder(radius, half_height):
+def cylinder(radius: float, half_height: float) -> Shape:
     """A cylinder around the z axis, from -half_height to half_height.
 
     Parameters
@@ -171,7 +182,8 @@ def cylinder(radius, half_height):
 
 
 @public
-def cut_cylinder(radius, heights, lower_slope=(0, 0), upper_slope=(0, 0)):
+def cut_cylinder(radius: float, heights: ArrayLike, lower_slope: ArrayLike = (0, 0),
+                 upper_slope: ArrayLike = (0, 0)) -> Shape:
     """A cylinder around the z axis between two planes ``z = height + slope . (x, y)``.
 
     Parameters
@@ -192,7 +204,7 @@ def cut_cylinder(radius, heights, lower_slope=(0, 0), upper_slope=(0, 0)):
 
 
 @public
-def cone(radius, half_height):
+def cone(radius: float, half_height: float) -> Shape:
     """A cone around the z axis, its base at -half_height, its tip at half_height.
 
     Parameters
@@ -208,7 +220,7 @@ def cone(radius, half_height):
 
 
 @public
-def capsule(radius, half_height):
+def capsule(radius: float, half_height: float) -> Shape:
     """A capsule: all points within `radius` of a segment of the z axis.
 
     Parameters
@@ -224,7 +236,7 @@ def capsule(radius, half_height):
 
 
 @public
-def tapered_capsule(radii, half_height):
+def tapered_capsule(radii: ArrayLike, half_height: float) -> Shape:
     """The convex hull of two balls on the z axis, at -half_height and half_height.
 
     Parameters
@@ -242,7 +254,7 @@ def tapered_capsule(radii, half_height):
 
 
 @public
-def frustum(radii, half_height):
+def frustum(radii: ArrayLike, half_height: float) -> Shape:
     """A frustum of a cone between two disks, at -half_height and half_height.
 
     Parameters
@@ -260,7 +272,7 @@ def frustum(radii, half_height):
 
 
 @public
-def superellipsoid(radii, exponent):
+def superellipsoid(radii: ArrayLike, exponent: float) -> Shape:
     """All points with ``sum(abs(x / radii) ** exponent) <= 1``; exponent >= 1.
 
     Parameters
@@ -278,7 +290,7 @@ def superellipsoid(radii, exponent):
 
 
 @public
-def hull(points):
+def hull(points: ArrayLike) -> Shape:
     """The convex hull of points.
 
     Parameters
@@ -293,7 +305,7 @@ def hull(points):
 
 
 @public
-def custom(support, bounds=None):
+def custom(support: Callable[[NDArray[np.float64]], ArrayLike], bounds: Optional[ArrayLike] = None) -> Shape:
     """A custom shape, given by its support function.
 
     Parameters
@@ -328,15 +340,14 @@ def custom(support, bounds=None):
     """
     if not callable(support):
         raise Error(f"support: must be callable (got {type(support).__name__})")
-    if bounds is not None:
-        bounds = vectors_of(bounds, "bounds", 3, 2)
-        if len(bounds) != 2:
-            raise Error(f"bounds: must have the shape (2, 3) (got {bounds.shape})")
-    return _minkray.custom(support, bounds)
+    corners = None if bounds is None else vectors_of(bounds, "bounds", 3, 2)
+    if corners is not None and len(corners) != 2:
+        raise Error(f"bounds: must have the shape (2, 3) (got {corners.shape})")
+    return _minkray.custom(support, corners)
 
 
 @public
-def read_shape(json, folder=""):
+def read_shape(json: str, folder: str = "") -> Shape:
     """Reads a shape from JSON, as in scene files.
 
     Parameters
@@ -383,9 +394,9 @@ def json(self):
     return self._json()
 
 
-Shape.__init__ = _init
-Shape.support = public(support, "Shape.support")
-Shape.bounds = public(bounds, "Shape.bounds")
-Shape.json = public(json, "Shape.json")
-Shape.__getstate__ = public(Shape.__getstate__, "Shape.__getstate__")
+setattr(Shape, "__init__", _init)
+setattr(Shape, "support", public(support, "Shape.support"))
+setattr(Shape, "bounds", public(bounds, "Shape.bounds"))
+setattr(Shape, "json", public(json, "Shape.json"))
+setattr(Shape, "__getstate__", public(getattr(Shape, "__getstate__"), "Shape.__getstate__"))
 del support, bounds, json
