@@ -17,14 +17,48 @@ constexpr std::size_t formless_at_once = 128;
 /// Number of pairs by which prefetching is ahead of casts.
 constexpr std::size_t fetched_ahead = 16;
 
-template <class Screen>
-void walk_pairs(const Bvh& bvh, std::span<SlabRay> slabs, Screen& screen, QueryCounts& counts) {
-  const auto visit = [](void* context, const std::uint32_t* rays, const std::uint32_t* boxes,
-                        std::size_t pairs) {
-    static_cast<Screen*>(context)->take(rays, boxes, pairs);
+/// Finds the pairs of a ray and an instance that may hit, screens them and casts the rest.
+/// on_sure(ray, last) is called for certain hits at t <= last, and returns true if the pair is to
+/// be cast nevertheless. on_found is that of PairCaster. is_due(pair) returns true if the pair can
+/// still change the result. Returns the rays with a cast that did not converge.
+template <class OnSure, class OnFound, class IsDue>
+std::vector<std::uint32_t> trace_stream(const World& world, FormKind kind_of_all,
+                                        const RaySpan& rays, RayLimits& limits, QueryCounts& counts,
+                                        const OnSure& on_sure, const OnFound& on_found,
+                                        const IsDue& is_due) {
+  const Instances& instances = world.instances();
+  PairCaster<OnFound> caster(instances, world.options(), rays, counts, on_found);
+  std::vector<OpenPair> open, formless;
+  open.reserve(4 * rays.size());
+  const auto on_open = [&](std::uint32_t ray, std::uint32_t instance, float from, float last,
+                           bool is_sure) {
+    if (is_sure) {
+      if (on_sure(ray, last)) open.push_back({ray, instance, from});
+    } else if (!is_formless(instances, instance)) {
+      open.push_back({ray, instance, from});
+    } else {
+      formless.push_back({ray, instance, from});
+      if (formless.size() >= formless_at_once) caster.cast_formless(formless, is_due);
+    }
   };
-  counts.nodes += walk_stream(bvh, slabs, {visit, &screen});
+  PairScreen<decltype(on_open)> screen(instances, kind_of_all, rays, limits, on_open);
+  const auto visit = [](void* context, const std::uint32_t* of_pairs, const std::uint32_t* boxes,
+                        std::size_t pairs) {
+    static_cast<decltype(screen)*>(context)->take(of_pairs, boxes, pairs);
+  };
+  counts.nodes += walk_stream(world.bvh(), limits.slabs, {visit, &screen});
   screen.finish();
+  caster.cast_formless(formless, is_due);
+  std::erase_if(open, [&](const OpenPair& pair) { return !is_due(pair); });
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    if (i + fetched_ahead < open.size()) {
+      instances.prefetch(open[i + fetched_ahead].instance);
+      instances.prefetch_digits(open[i + fetched_ahead].instance);
+    }
+    if (is_due(open[i])) caster.add(open[i].ray, open[i].instance);
+  }
+  caster.finish();
+  return caster.exhausted();
 }
 
 }  // namespace
@@ -38,43 +72,22 @@ void World::answer_stream(const RaySpan& rays, std::size_t first, HitReceiver& t
   RayLimits limits(rays);
   for (std::size_t i = 0; i < rays.size(); ++i)
     if (hits[i].found()) limits.lower(i, hits[i].cast.t());
+  const auto on_sure = [&](std::uint32_t ray, float last) {
+    if (last <= limits.t[ray]) {
+      limits.lower(ray, static_cast<double>(last));
+      limits.sure[ray] = 1;
+    }
+    return true;
+  };
   const auto keep = [&](std::uint32_t ray, std::uint32_t instance, double t, const auto& result) {
     if (!hits[ray].yields_to(instance, t)) return;
     hits[ray] = {instance, instances_.turned(instance, result(), rays.time(ray))};
     limits.lower(ray, t);
   };
-  PairCaster<decltype(keep)> caster(instances_, options_, rays, own, keep);
-  std::vector<OpenPair> open, formless;
-  open.reserve(4 * rays.size());
   const auto is_due = [&](const OpenPair& pair) { return pair.first <= limits.t[pair.ray]; };
-  const auto on_open = [&](std::uint32_t ray, std::uint32_t instance, float from, float last,
-                           bool is_sure) {
-    if (is_sure) {
-      if (last <= limits.t[ray]) {
-        limits.lower(ray, static_cast<double>(last));
-        limits.sure[ray] = 1;
-      }
-    } else if (is_formless(instances_, instance)) {
-      formless.push_back({ray, instance, from});
-      if (formless.size() >= formless_at_once) caster.cast_formless(formless, is_due);
-      return;
-    }
-    open.push_back({ray, instance, from});
-  };
-  PairScreen<decltype(on_open)> screen(instances_, kind_of_all_, rays, limits, on_open);
-  walk_pairs(bvh_, limits.slabs, screen, own);
-  caster.cast_formless(formless, is_due);
-
-  std::erase_if(open, [&](const OpenPair& pair) { return !is_due(pair); });
-  for (std::size_t i = 0; i < open.size(); ++i) {
-    if (i + fetched_ahead < open.size()) {
-      instances_.prefetch(open[i + fetched_ahead].instance);
-      instances_.prefetch_digits(open[i + fetched_ahead].instance);
-    }
-    caster.add(open[i].ray, open[i].instance);
-  }
-  caster.finish();
-  for (const std::uint32_t ray : caster.exhausted()) is_alone[ray] = 1;
+  for (const std::uint32_t ray :
+       trace_stream(*this, kind_of_all_, rays, limits, own, on_sure, keep, is_due))
+    is_alone[ray] = 1;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const bool is_met = hits[i].found() && hits[i].cast.t() <= static_cast<double>(limits.t[i]);
     if (!is_alone[i] && (!limits.sure[i] || is_met)) {
@@ -96,31 +109,19 @@ void World::occluded_in_stream(const RaySpan& rays, std::span<std::uint8_t> met,
   if (instances_.have_shapeless()) blocked_by_shapeless(rays, met, counts);
   if (bvh_.nodes.empty()) return;
   RayLimits limits(rays);
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    if (met[i] != 0) limits.end(i);
   const auto end = [&](std::uint32_t ray) {
     met[ray] = 1;
     limits.end(ray);
   };
-  for (std::size_t i = 0; i < rays.size(); ++i)
-    if (met[i] != 0) limits.end(i);
-  const auto end_when_found = [&](std::uint32_t ray, std::uint32_t, double, const auto&) {
+  const auto on_sure = [&](std::uint32_t ray, float) {
     end(ray);
+    return false;
   };
-  PairCaster<decltype(end_when_found)> caster(instances_, options_, rays, counts, end_when_found);
-  std::vector<OpenPair> open, formless;
+  const auto on_found = [&](std::uint32_t ray, std::uint32_t, double, const auto&) { end(ray); };
   const auto is_due = [&](const OpenPair& pair) { return met[pair.ray] == 0; };
-  const auto on_open = [&](std::uint32_t ray, std::uint32_t instance, float from, float,
-                           bool is_sure) {
-    if (is_sure) return end(ray);
-    if (!is_formless(instances_, instance)) return open.push_back({ray, instance, from});
-    formless.push_back({ray, instance, from});
-    if (formless.size() >= formless_at_once) caster.cast_formless(formless, is_due);
-  };
-  PairScreen<decltype(on_open)> screen(instances_, kind_of_all_, rays, limits, on_open);
-  walk_pairs(bvh_, limits.slabs, screen, counts);
-  caster.cast_formless(formless, is_due);
-  for (const OpenPair& pair : open)
-    if (is_due(pair)) caster.add(pair.ray, pair.instance);
-  caster.finish();
+  trace_stream(*this, kind_of_all_, rays, limits, counts, on_sure, on_found, is_due);
 }
 
 }  // namespace minkray
