@@ -4,9 +4,9 @@
 namespace minkray {
 
 std::uint64_t walk_stream(const Bvh& bvh, std::span<SlabRay> rays, const PairVisitor& visitor,
-                          WalkSet set) {
+                          InstructionSet set) {
   if (bvh.nodes.empty() || rays.empty()) return 0;
-  if (set == WalkSet::avx2)
+  if (set == InstructionSet::avx2)
     return walk_stream_avx2(bvh.nodes.data(), rays.data(), rays.size(), visitor);
   // Without lanes for eight boxes, taking turns saves no time.
   std::uint64_t visited = 0;

@@ -24,7 +24,7 @@ struct PairVisitor {
 /// Visits the boxes that each ray meets with 0 <= t <= t_max, in no particular order; rounding may
 /// add boxes. Returns the number of visited nodes.
 std::uint64_t walk_stream(const Bvh& bvh, std::span<SlabRay> rays, const PairVisitor& visitor,
-                          WalkSet set = best_walk_set());
+                          InstructionSet set = best_instruction_set());
 
 /// Computes SlabRay(ray) for many rays in double, bit-identical to the constructor. The rays are
 /// `stride` bytes apart. Requires AVX2 and FMA.

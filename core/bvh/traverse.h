@@ -7,15 +7,13 @@
 #include "core/bvh/bvh.h"
 #include "core/bvh/slab_ray.h"
 #include "core/bvh/traverse_kernel.h"
+#include "core/math/instruction_set.h"
 
 namespace minkray {
 
-/// Instruction sets that traversals are compiled for. Traversals of all sets find the same boxes.
-enum class WalkSet : unsigned char { sse2, avx2 };
-WalkSet best_walk_set();
-
+/// Traversals of all instruction sets find the same boxes.
 std::uint32_t walk(const Bvh& bvh, const SlabNumbers& ray, const BoxVisitor& visitor,
-                   WalkSet set = best_walk_set());
+                   InstructionSet set = best_instruction_set());
 
 /// Prefetches nothing: for boxes whose contents are in the cache anyway.
 struct ExpectNothing {
@@ -34,7 +32,8 @@ void expected(const void* context, std::uint32_t box) {
 /// nodes.
 template <class OnBox, class OnExpected = ExpectNothing>
 std::uint32_t traverse(const Bvh& bvh, const SlabRay& ray, OnBox&& on_box,
-                       const OnExpected& on_expected = {}, WalkSet set = best_walk_set()) {
+                       const OnExpected& on_expected = {},
+                       InstructionSet set = best_instruction_set()) {
   using Function = std::remove_reference_t<OnBox>;
   const auto visit = [](void* context, std::uint32_t box) -> bool {
     return (*static_cast<Function*>(context))(box);

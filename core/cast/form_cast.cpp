@@ -2,6 +2,7 @@
 #include "core/cast/form_cast.h"
 
 #include "core/cast/filter.h"
+#include "core/math/instruction_set.h"
 
 namespace minkray {
 namespace {
@@ -33,8 +34,7 @@ template <class Place>
 bool cast_by_form(const FormPlace& place, const Ray<double>& ray, CastResult<double>& result) {
   if (place.definition().form().kind == FormKind::none) return false;
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-    return cast_with_fma(place, ray, result);
+  if (has_avx2()) return cast_with_fma(place, ray, result);
 #endif
   return cast_here(place, ray, result);
 }

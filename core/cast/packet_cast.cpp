@@ -46,15 +46,6 @@ void CastPacket::set(int lane, const CastResult<double>& result) {
   path[i] = result.path;
 }
 
-InstructionSet best_instruction_set() {
-#if defined(__x86_64__)
-  static const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-  return has_avx2 ? InstructionSet::avx2 : InstructionSet::sse2;
-#else
-  return InstructionSet::sse2;
-#endif
-}
-
 namespace {
 
 /// Casts with the shape's model, if packets support the model; otherwise leaves all lanes

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "core/cast/cast.h"
+#include "core/math/instruction_set.h"
 
 namespace minkray {
 
@@ -57,11 +58,6 @@ struct alignas(32) CastPacket {
   CastResult<double> result(int lane) const;
   void set(int lane, const CastResult<double>& result);
 };
-
-/// Instruction sets that packets are compiled for.
-enum class InstructionSet : unsigned char { sse2, avx2 };
-/// The widest of these that this machine has.
-InstructionSet best_instruction_set();
 
 /// Same as cast_ray, for the requested lanes. The machine must have the instruction set.
 void cast_packet(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes,

@@ -29,7 +29,7 @@ inline MeshView view_of(const TriangleMesh& mesh) {
 
 /// True if the mesh and this machine are suitable for lanes.
 inline bool has_lanes(const TriangleMesh& mesh) {
-  return mesh.suits_lanes() && best_walk_set() == WalkSet::avx2;
+  return mesh.suits_lanes() && has_avx2();
 }
 
 /// Returns cast_at_triangle for a triangle of the mesh, with its number.

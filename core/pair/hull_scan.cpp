@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "core/math/instruction_set.h"
+
 #if defined(__x86_64__) && defined(__GNUC__)
 #include <immintrin.h>
 #define MINKRAY_HULL_SCAN_AVX2
@@ -97,7 +99,7 @@ std::uint64_t far_plain(const ShapeCore& hull, double x, double y, double z, dou
 
 int furthest_of_hull(const ShapeCore& hull, double x, double y, double z) {
 #ifdef MINKRAY_HULL_SCAN_AVX2
-  if (__builtin_cpu_supports("avx2")) return scan_avx2(hull, x, y, z);
+  if (has_avx2()) return scan_avx2(hull, x, y, z);
 #endif
   return scan(hull, x, y, z);
 }
@@ -106,7 +108,7 @@ std::uint64_t far_of_hull(const ShapeCore& hull, double x, double y, double z, d
                           int begin) {
   const int end = std::min(hull.count, begin + 64);
 #ifdef MINKRAY_HULL_SCAN_AVX2
-  if (__builtin_cpu_supports("avx2")) return far_avx2(hull, x, y, z, least, begin, end);
+  if (has_avx2()) return far_avx2(hull, x, y, z, least, begin, end);
 #endif
   return far_plain(hull, x, y, z, least, begin, end);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/parts/triangle_lanes.h"
 
-#include "core/bvh/traverse.h"
+#include "core/math/instruction_set.h"
 
 namespace minkray {
 
@@ -36,8 +36,7 @@ void EightTriangles::fill() {
 
 void triangle_gaps(const TriangleCorners& one, const Vec3<double>& normal,
                    const EightTriangles& eight, const Vec3<double>* known, double* gaps) {
-  (best_walk_set() == WalkSet::avx2 ? triangle_gaps_avx2 : triangle_gaps_sse2)(one, normal, eight,
-                                                                               known, gaps);
+  (has_avx2() ? triangle_gaps_avx2 : triangle_gaps_sse2)(one, normal, eight, known, gaps);
 }
 
 }  // namespace minkray

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "core/parts/triangle_pair.h"
 
-#include "core/bvh/traverse.h"
+#include "core/math/instruction_set.h"
 #include "core/parts/nearest_features.h"
 
 namespace minkray {
 namespace {
 
 void nearest_features(const TriangleCorners& a, const TriangleCorners& b, NearestPoints& best) {
-  (best_walk_set() == WalkSet::avx2 ? nearest_features_avx2 : nearest_features_sse2)(a, b, best);
+  (has_avx2() ? nearest_features_avx2 : nearest_features_sse2)(a, b, best);
 }
 
 /// Squares of lengths above this are normal numbers, so the normal has unit length to its last

@@ -23,9 +23,6 @@ Polytope::Polytope(const std::vector<Vec3<double>>& vertices, double rounded_by)
   extents = extents.cwiseMax(Vec3<double>::Constant(extents.maxCoeff() / 65536));
   tables_.by_extents = (extents + Vec3<double>::Constant(rounded_by)).cwiseInverse();
   tables_.rounded_by = rounded_by;
-#if defined(__x86_64__)
-  tables_.has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-#endif
 }
 
 std::shared_ptr<const Polytope> Polytope::of(const PointCloud& points, const Vec3<double>& middle,

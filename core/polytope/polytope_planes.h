@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/math/gather_rows.h"
+#include "core/math/instruction_set.h"
 #include "core/polytope/polytope_tables.h"
 #include "core/query/line.h"
 
@@ -83,7 +84,7 @@ PlanesPassed<W> pass_planes(const PolytopeTables& of, const Line<W>& line) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   if constexpr (std::is_same_v<W, double>) {
     PlaneScan scan;
-    (of.has_avx2 ? scan_planes_avx2 : scan_planes_sse2)(of.scanned, line, scan);
+    (has_avx2() ? scan_planes_avx2 : scan_planes_sse2)(of.scanned, line, scan);
     return {scan.in,
             scan.in_hi,
             scan.out,

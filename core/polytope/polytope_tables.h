@@ -43,7 +43,6 @@ struct PolytopeTables {
   double rounded_by = 0;                ///< the radius by which the polytope is grown
   Vec3<double> inner = {0, 0, 0};       ///< a point clearly inside
   Vec3<double> by_extents = {1, 1, 1};  ///< 1 / half extents, grown by the radius
-  bool has_avx2 = false;
 
   std::size_t plane_count() const { return scanned.size(); }
 };

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/math/bounds.h"
+#include "core/math/instruction_set.h"
 #include "core/math/ray.h"
 #include "core/math/two_fold.h"
 #include "core/query/tolerances.h"
@@ -190,7 +191,7 @@ requires(std::is_same_v<Centre, Vec3<Lane<W>>> ||
                                                                                const Ray<W>& ray) {
 #if defined(__x86_64__)
   if constexpr (std::is_same_v<W, double>)
-    if (__builtin_cpu_supports("fma")) return detail::ray_near_with_fma(centre, ray);
+    if (has_avx2()) return detail::ray_near_with_fma(centre, ray);
 #endif
   return detail::ray_near_here<W>(centre, ray);
 }

@@ -179,7 +179,7 @@ SingleWorld World::single_world() const {
 }
 
 bool World::has_screen() const {
-  return is_default_ && best_walk_set() == WalkSet::avx2;
+  return is_default_ && has_avx2();
 }
 
 void World::pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,

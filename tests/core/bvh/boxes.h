@@ -52,15 +52,15 @@ inline Bvh built(const Boxes& boxes, BvhBuild build = BvhBuild::quality) {
   return build_bvh(in_float(boxes), build);
 }
 
-inline std::vector<WalkSet> walk_sets() {
-  std::vector<WalkSet> sets = {WalkSet::sse2};
-  if (best_walk_set() == WalkSet::avx2) sets.push_back(WalkSet::avx2);
+inline std::vector<InstructionSet> walk_sets() {
+  std::vector<InstructionSet> sets = {InstructionSet::sse2};
+  if (has_avx2()) sets.push_back(InstructionSet::avx2);
   return sets;
 }
 
 /// Uses the hierarchy.
 template <class T>
-BoxSet boxes_found(const Bvh& bvh, const Ray<T>& ray, WalkSet set = best_walk_set()) {
+BoxSet boxes_found(const Bvh& bvh, const Ray<T>& ray, InstructionSet set = best_instruction_set()) {
   BoxSet found;
   const SlabRay slabs(ray);
   traverse(

@@ -27,10 +27,10 @@ template <class T>
 std::size_t expect_boxes(const Bvh& bvh, const Boxes& boxes, const Ray<T>& ray) {
   const BoxSet met = boxes_met(boxes, ray);
   BoxSet first;
-  for (const WalkSet set : walk_sets()) {
+  for (const InstructionSet set : walk_sets()) {
     const BoxSet found = boxes_found(bvh, ray, set);
     EXPECT_TRUE(includes(found, met)) << found.size() << " of " << met.size();
-    if (set == WalkSet::sse2) first = found;
+    if (set == InstructionSet::sse2) first = found;
     EXPECT_EQ(found, first);
   }
   return met.size();
@@ -230,7 +230,7 @@ TEST(Traverse, near_boxes_come_first_and_a_hit_ends_the_search_behind_it) {
 }
 
 TEST(Traverse, slabs_of_many_rays_are_those_of_single_rays) {
-  if (best_walk_set() != WalkSet::avx2) GTEST_SKIP() << "no AVX2";
+  if (!has_avx2()) GTEST_SKIP() << "no AVX2";
   BoxRandom random(4);
   std::vector<Ray<double>> rays;
   for (int i = 0; i < 20'000; ++i) {
@@ -256,7 +256,7 @@ TEST(Traverse, slabs_of_many_rays_are_those_of_single_rays) {
 }
 
 TEST(Traverse, a_group_finds_the_boxes_of_its_rays) {
-  if (best_walk_set() != WalkSet::avx2) GTEST_SKIP() << "no AVX2";
+  if (!has_avx2()) GTEST_SKIP() << "no AVX2";
   BoxRandom random(5);
   Boxes boxes;
   for (int i = 0; i < 500; ++i) {
