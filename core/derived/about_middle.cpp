@@ -2,6 +2,7 @@
 #include "core/derived/about_middle.h"
 
 #include "core/math/bounds.h"
+#include "core/support/declared.h"
 
 namespace minkray {
 namespace {
@@ -33,6 +34,14 @@ struct Rebuilder {
     return {under(map.linear.high, shape), map.translation,
             map.loss + loss_of_turns(shape, map, similarity_of(map))};
   }
+  template <class S>
+  requires(declared_by<S>.heights) AboutMiddle operator()(const S& shape) const {
+    S moved = shape;
+    const Vec3<double> middle(0, 0, shape.heights[0] / 2 + shape.heights[1] / 2);
+    for (double& height : moved.heights) height -= middle.z();
+    return {under(map.linear.high, moved), map.image(middle),
+            map.loss_of_image(middle) + loss_of_turns(moved, map, similarity_of(map))};
+  }
 
   AboutMiddle operator()(const Point& point) const {
     return {Point{Vec3<double>::Zero()}, map.image(point.position),
@@ -46,14 +55,6 @@ struct Rebuilder {
     if (map.linear.is_identity() && !is_far(bounds)) return {hull, map.translation, map.loss};
     PointsAboutMiddle moved = points_about_middle(hull.points.points(), map);
     return {Hull{PointCloud(std::move(moved.points))}, moved.middle, moved.loss};
-  }
-
-  AboutMiddle operator()(const CutCylinder& cylinder) const {
-    CutCylinder moved = cylinder;
-    const Vec3<double> middle(0, 0, cylinder.heights[0] / 2 + cylinder.heights[1] / 2);
-    for (double& height : moved.heights) height -= middle.z();
-    return {under(map.linear.high, moved), map.image(middle),
-            map.loss_of_image(middle) + loss_of_turns(moved, map, similarity_of(map))};
   }
 
   /// Finds the middle by support points.

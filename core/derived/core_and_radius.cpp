@@ -5,6 +5,7 @@
 
 #include "core/derived/simple_cores.h"
 #include "core/math/length.h"
+#include "core/support/declared.h"
 
 namespace minkray {
 namespace {
@@ -69,6 +70,19 @@ bool keeps_right_angles(const Mat3<double>& linear) {
     if (!(std::abs(a.dot(b)) <= rounding * a.norm() * b.norm())) return false;
   }
   return true;
+}
+
+/// Multiplies all lengths of a shape without operands.
+template <class S>
+void scale_lengths(S& shape, double factor) {
+  for_each_field<S>([&](const auto& field) {
+    if (field.unit != Unit::length) return;
+    auto& lengths = shape.*field.member;
+    if constexpr (std::is_same_v<std::remove_cvref_t<decltype(lengths)>, double>)
+      lengths *= factor;
+    else
+      for (double& length : lengths) length *= factor;
+  });
 }
 
 CoreAndRadius find(const Shape& shape, const ComposedMap& map, double radius);
@@ -153,7 +167,8 @@ struct CoreFinder {
   }
 
   template <class S>
-  bool find(const S&, CoreAndRadius&) const {
+  bool find(const S& shape, CoreAndRadius& found) const {
+    if constexpr (declared_by<S>.revolved) return find_revolved(shape, found);
     return false;
   }
   bool find(const Point& shape, CoreAndRadius& found) const {
@@ -225,11 +240,12 @@ struct CoreFinder {
   bool find(const Frustum& shape, CoreAndRadius& found) const {
     return disks(shape.radii[0], shape.radii[1], shape.half_height, found);
   }
-  bool find(const TaperedCapsule& shape, CoreAndRadius& found) const {
+  /// The core keeps the shape's axis as its own.
+  template <class S>
+  bool find_revolved(S shape, CoreAndRadius& found) const {
     if (!(similarity > 0)) return false;
-    const TaperedCapsule upright{{shape.radii[0] * similarity, shape.radii[1] * similarity},
-                                 shape.half_height * similarity};
-    found = of_other(Shape(upright), {}, radius);
+    scale_lengths(shape, similarity);
+    found = of_other(Shape(std::move(shape)), {}, radius);
     found.core.is_round = true;
     found.turn = linear() / similarity;
     const TwoFoldVec3<double> middle =

@@ -7,6 +7,7 @@
 
 #include "core/derived/shape_bounds.h"
 #include "core/math/principal_axes.h"
+#include "core/support/declared.h"
 
 namespace minkray {
 namespace {
@@ -20,11 +21,6 @@ constexpr double most_askew = 0x1p12;
 
 /// Largest ratio of size to rounding radius: with smaller radii, edges are nearly sharp.
 constexpr double most_to_rounding = 0x1p20;
-
-/// Least excess of a superellipsoid's exponent over 1. Below this, edges are curved so much more
-/// than faces that a model that agrees with one plane may be far off (observed at 2^-14). An
-/// exponent of exactly 1 is allowed, since the corners are then known.
-constexpr double least_above_1 = 0x1p-10;
 
 /// Ratio of the longest to the shortest length; 1 if there is only one. Lengths up to `flat` count
 /// as zero.
@@ -40,25 +36,15 @@ Vec3<long double> half_extents_of(const Bounds<double>& bounds) {
   return (bounds.upper.cast<long double>() - bounds.lower.cast<long double>()) / 2;
 }
 
-/// Half extents of the shape's bounding box.
+/// Half extents of the shape's bounding box. Slanted faces may be closer to each other than the
+/// height of the bounding box, so their distance may replace the least length.
 template <class S>
 Vec3<long double> half_lengths_of(const S& shape) {
-  return half_extents_of(bounds_of(shape));
-}
-
-/// Slanted planes may be closer to each other than the height of the bounding box. So the least
-/// length is replaced by half of their distance, measured where they are furthest apart.
-Vec3<long double> half_lengths_of(const CutCylinder& shape) {
-  using Long = long double;
-  Vec3<Long> lengths = half_extents_of(bounds_of(shape));
-  std::sort(lengths.begin(), lengths.end());
-  const auto& lower = shape.lower_slope;
-  const auto& upper = shape.upper_slope;
-  const Long apart = Long(shape.heights[1]) - Long(shape.heights[0]) +
-                     Long(shape.radius) * std::hypot(Long(upper[0]) - Long(lower[0]),
-                                                     Long(upper[1]) - Long(lower[1]));
-  const Long steepness = std::min(std::hypot(lower[0], lower[1]), std::hypot(upper[0], upper[1]));
-  lengths[0] = std::min(lengths[0], apart / 2 / std::hypot(Long(1), steepness));
+  Vec3<long double> lengths = half_extents_of(bounds_of(shape));
+  if constexpr (declared_by<S>.slanted) {
+    std::sort(lengths.begin(), lengths.end());
+    lengths[0] = std::min(lengths[0], shape.half_thickness());
+  }
   return lengths;
 }
 
@@ -202,11 +188,10 @@ void look_at(const Shape& shape, const Stretch& stretch, Seen& seen) {
         } else if constexpr (std::is_same_v<S, MinkowskiSum> || std::is_same_v<S, HullOf>) {
           for (const Nested& operand : kind.shapes) look_at(*operand, stretch, seen);
         } else {
-          if constexpr (std::is_same_v<S, Superellipsoid>)
-            seen.nearly_sharp |= kind.exponent > 1.0 && kind.exponent < 1 + least_above_1;
+          if constexpr (declared_by<S>.gauge) seen.nearly_sharp |= kind.is_nearly_sharp();
           const Vec3<long double> lengths = half_lengths_of(kind);
           // The rims of slanted faces are not along the axes.
-          constexpr double most = std::is_same_v<S, CutCylinder> ? most_askew : most_along_axes;
+          constexpr double most = declared_by<S>.slanted ? most_askew : most_along_axes;
           seen.extreme_operand |= ratio_of(lengths, 0) * stretch.ratio() > most;
           for (const long double length : lengths) seen.add(double(length), stretch);
         }

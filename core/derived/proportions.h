@@ -10,7 +10,7 @@ namespace minkray {
 /// True if a component shape, with the maps around it, is much longer than it is thick, or much
 /// larger than another component. Components without any thickness (disks, segments, flat hulls) do
 /// not count as thin, but hulls of points that are collinear only up to rounding do. True also for
-/// superellipsoids whose edges are nearly, but not quite, sharp.
+/// components whose edges are nearly, but not quite, sharp.
 bool has_extreme_proportions(const Shape& shape);
 
 }  // namespace minkray

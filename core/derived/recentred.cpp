@@ -5,6 +5,7 @@
 
 #include "core/derived/shape_bounds.h"
 #include "core/math/bounds.h"
+#include "core/support/declared.h"
 
 namespace minkray {
 namespace {
@@ -52,9 +53,11 @@ struct MovedBack {
   }
   std::optional<Shape> operator()(const Triangle& triangle) const { return points_of(triangle); }
   std::optional<Shape> operator()(const Segment& segment) const { return points_of(segment); }
-  std::optional<Shape> operator()(const CutCylinder& cylinder) const {
+  template <class S>
+  requires(declared_by<S>.heights) std::optional<Shape>
+  operator()(const S& shape) const {
     if (way.high.x() != 0.0 || way.high.y() != 0.0) return {};
-    CutCylinder moved = cylinder;
+    S moved = shape;
     for (double& height : moved.heights)
       height = moved_back(Vec3<double>(0.0, 0.0, height), way).z();
     return moved;

@@ -1,11 +1,28 @@
 // SPDX-License-Identifier: MIT
 // Finds where a line enters and leaves an infinite cone around the z axis, below the apex (the
-// lower nappe of a double cone). Used by frustums and tapered capsules.
+// lower nappe of a double cone). Used by forms with two round ends of different sizes.
 #pragma once
 
+#include "core/exact/form.h"
 #include "core/query/line.h"
+#include "core/query/tolerances.h"
 
 namespace minkray::exact {
+
+/// Mirrors a form whose first two sizes are the radii at -z and +z, so that its apex is above.
+inline void larger_end_below(Form& form) {
+  if (!(form.sizes[1] > form.sizes[0])) return;
+  std::swap(form.sizes[0], form.sizes[1]);
+  form.is_upside_down = true;
+}
+
+/// Computes the height of the apex, from the half height and the upper radius, for a cone whose
+/// radius is less by `narrows` per height. Returns no form if the apex is too far away for the
+/// bounds that docs/forms.md derives.
+inline Form with_apex(Form form, double narrows) {
+  form.sizes[3] = form.sizes[2] + form.sizes[1] / narrows;
+  return form.sizes[3] < tolerance::tapered_farthest_apex * form.R ? form : Form();
+}
 
 /// A parameter greater than all parameters at which lines meet shapes. Products with a line's
 /// coordinates do not overflow.

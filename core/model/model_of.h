@@ -3,12 +3,12 @@
 #pragma once
 
 #include "core/model/ellipsoid_sum_model.h"
+#include "core/model/gauge_model.h"
 #include "core/model/model_cast.h"
 #include "core/model/polytope_model.h"
 #include "core/model/shape_definition.h"
 #include "core/model/smooth_model.h"
 #include "core/model/sums_model.h"
-#include "core/model/superellipsoid_model.h"
 #include "core/model/translates_model.h"
 #include "core/shape/shape.h"
 #include "core/support/declared.h"
@@ -67,7 +67,7 @@ auto with_model(const ShapeDefinition& definition, Use&& use) {
           [&]<class S>(const S& kind) {
             if constexpr (declared_by<S>.gauge)
               return use([&](const Vec3<W>& s, const Vec3<W>& r) {
-                return SuperellipsoidModel<W, S>(kind, centre, s, r, R);
+                return GaugeModel<W, S>(kind, centre, s, r, R);
               });
             else
               return smooth();

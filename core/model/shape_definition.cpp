@@ -7,58 +7,28 @@
 #include "core/derived/proportions.h"
 #include "core/derived/recentred.h"
 #include "core/derived/shape_bounds.h"
-#include "core/polytope/polytope.h"
+#include "core/exact/ball.h"
 #include "core/query/tolerances.h"
-#include "core/support/declared.h"
 
 namespace minkray {
 namespace {
 
-exact::Form rounded_polytope(const Rounded& shape, const Vec3<double>& ball_centre, double down) {
-  return std::visit(
-      [&]<class S>(const S& core) {
-        if constexpr (declared_by<S>.facets)
-          return exact::form_of(
-              exact::Polytope::of(core.points, ball_centre, down, double(shape.radius) * down));
-        else
-          return exact::Form();
-      },
-      shape.shape->kind);
-}
-
 /// Returns the closed form of an inner shape. A shape scaled to about unit size is a Transform;
 /// uses the scaled form of the shape inside it.
-exact::Form exact_form_of(const Shape& inner, const Vec3<double>& ball_centre) {
+exact::Form form_of(const Shape& inner, const Vec3<double>& ball_centre) {
   const auto* resized = std::get_if<Transform>(&inner.kind);
-  const double down = resized ? double(resized->map.affine().linear(0, 0)) : 1;
-  const Shape& shape = resized ? *resized->shape : inner;
-  return std::visit(
-      [&](const auto& kind) {
-        using S = std::remove_cvref_t<decltype(kind)>;
-        if constexpr (std::is_same_v<S, Rounded>)
-          if (const exact::Form form = rounded_polytope(kind, ball_centre, down);
-              form.kind != FormKind::none)
-            return form;
-        if constexpr (requires { kind.exact_form(); })
-          return exact::form_of(kind.exact_form(), ball_centre, down);
-        else if constexpr (declared_by<S>.facets)
-          return exact::form_of(exact::Polytope::of(kind.points, ball_centre, down));
-        else
-          return exact::Form();
-      },
-      shape.kind);
+  if (!resized) return exact::form_of(inner, ball_centre, 1);
+  return exact::form_of(*resized->shape, ball_centre, resized->map.affine().linear(0, 0));
 }
 
 /// Rounded hulls and triangles count as shapes with corners, since their radius may be tiny.
-double uncertain_slope_of(ModelKind model, FormKind form) {
-  const bool has_faces = form == FormKind::polytope || form == FormKind::triangle;
-  const bool is_round = form == FormKind::ball || form == FormKind::ellipsoid ||
-                        form == FormKind::capsule || form == FormKind::tapered_capsule ||
-                        form == FormKind::segment;
+double uncertain_slope_of(ModelKind model, const exact::Form& form) {
+  const bool has_faces = form.polytope != nullptr;
   if (model == ModelKind::smooth || model == ModelKind::gauge ||
       model == ModelKind::ellipsoid_sum || (model == ModelKind::rounded_points && !has_faces))
     return 0.0;
-  return is_round ? tolerance::uncertain_smooth_slope<double> : tolerance::uncertain_slope<double>;
+  return exact::is_round(form.kind) ? tolerance::uncertain_smooth_slope<double>
+                                    : tolerance::uncertain_slope<double>;
 }
 
 /// A shape under a map, without a Transform object. Bounds are computed once per instance, and a
@@ -132,11 +102,11 @@ ShapeDefinition::ShapeDefinition(Shape shape) : original_(shape), inner_(std::mo
   if (model_ == ModelKind::ellipsoid_sum)
     ellipsoid_sum_ = touching_sum<double>(inner_, Vec3<double>(0.0, 0.0, 1.0));
   is_extreme_ = has_extreme_proportions(inner_);
-  if (!is_extreme_) form_ = exact_form_of(inner_, ball_.centre);
+  if (!is_extreme_) form_ = form_of(inner_, ball_.centre);
   is_plain_ = outer_.is_identity() && moved_.is_zero() && up_ == 1.0;
-  is_round_ = form_.kind == FormKind::ball && !form_.is_scaled && !form_.is_off_centre &&
+  is_round_ = form_.kind == exact::BallForm::kind && !form_.is_scaled && !form_.is_off_centre &&
               ball_.centre.isZero(0);
-  uncertain_slope_ = uncertain_slope_of(model_, form_.kind);
+  uncertain_slope_ = uncertain_slope_of(model_, form_);
 }
 
 /// Computes bounds relative to the shape's middle first, so that rounding is relative to its size.

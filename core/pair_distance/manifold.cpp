@@ -27,8 +27,8 @@ struct Polygon {
   const Corner& operator[](int i) const { return corners[static_cast<std::size_t>(i)]; }
 };
 
-/// Hull of corners projected along the normal (A. Andrew's monotone chain, 1979). Merges corners
-/// closer to each other than `near`, and drops corners within `near` of an edge.
+/// Convex hull of corners projected along the normal (A. Andrew's monotone chain, 1979). Merges
+/// corners closer to each other than `near`, and drops corners within `near` of an edge.
 Polygon hull_of(std::array<Corner, directions> points, double near) {
   std::ranges::sort(points, [](const Corner& a, const Corner& b) {
     return a.x < b.x || (a.x == b.x && a.y < b.y);

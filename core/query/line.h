@@ -7,7 +7,6 @@
 
 #include "core/math/least_to_square.h"
 #include "core/math/vec.h"
-#include "core/support/exact_form.h"
 
 namespace minkray::exact {
 

@@ -3,12 +3,7 @@
 // (core/math/wide.h explains why).
 #pragma once
 
-#include "core/exact/box.h"
-#include "core/exact/capsule.h"
-#include "core/exact/cylinder.h"
-#include "core/exact/frustum.h"
-#include "core/exact/rounded_box.h"
-#include "core/exact/tapered_capsule.h"
+#include "core/exact/forms.h"
 #include "core/math/wide.h"
 #include "core/query/tolerances.h"
 #include "core/screen/screen.h"
@@ -112,54 +107,32 @@ static_assert(offsetof(ScreenForm, slope) == 16 && offsetof(ScreenForm, scale) =
   return entry;
 }
 
-template <FormKind kind>
+template <class F>
 [[gnu::always_inline]] inline exact::Entry<W> enter(const FormInLanes& form,
                                                     const exact::Line<W>& line,
                                                     const Mask<W>& open) {
-  const auto& a = form.sizes;
-  if constexpr (kind == FormKind::polytope) return enter_planes_alike(form, line, open);
-  if constexpr (kind == FormKind::ball) return exact::enter_ball(a[0], line, open);
-  if constexpr (kind == FormKind::box) return exact::enter_box(a, line, open);
-  if constexpr (kind == FormKind::rounded_box) return exact::enter_rounded_box(a, line, open);
-  if constexpr (kind == FormKind::capsule) return exact::enter_capsule(a[0], a[1], line, open);
-  if constexpr (kind == FormKind::cylinder) return exact::enter_cylinder(a[0], a[1], line, open);
-  if constexpr (kind == FormKind::tapered_capsule)
-    return exact::enter_tapered_capsule(a[0], a[1], a[2], form.slope, form.sine, a[3], form.R, line,
-                                        open);
-  if constexpr (kind == FormKind::frustum)
-    return exact::enter_frustum(form.slope, form.sine, a[2], a[3], form.R, line, open);
+  if constexpr (F::lanes == exact::Lanes::planes)
+    return enter_planes_alike(form, line, open);
+  else
+    return F::enter(form, line, open);
 }
 
 /// Same as enter, but not inlined.
-template <FormKind kind>
+template <class F>
 [[gnu::noinline]] exact::Entry<W> enter_again(const FormInLanes& form, const exact::Line<W>& line,
                                               const Mask<W>& open) {
-  return enter<kind>(form, line, open);
+  return enter<F>(form, line, open);
 }
 
-/// Returns work.operator()<kind>().
+/// Returns work.operator()<F>() for the form of this kind; no bits for forms without lanes.
 template <class Work>
 inline ScreenBits for_kind(FormKind kind, const Work& work) {
-  switch (kind) {
-    case FormKind::ball:
-      return work.template operator()<FormKind::ball>();
-    case FormKind::box:
-      return work.template operator()<FormKind::box>();
-    case FormKind::rounded_box:
-      return work.template operator()<FormKind::rounded_box>();
-    case FormKind::capsule:
-      return work.template operator()<FormKind::capsule>();
-    case FormKind::tapered_capsule:
-      return work.template operator()<FormKind::tapered_capsule>();
-    case FormKind::cylinder:
-      return work.template operator()<FormKind::cylinder>();
-    case FormKind::frustum:
-      return work.template operator()<FormKind::frustum>();
-    case FormKind::polytope:
-      return work.template operator()<FormKind::polytope>();
-    default:
-      return {0, 0};
-  }
+  return exact::with_form(kind, [&]<class F>() {
+    if constexpr (F::lanes == exact::Lanes::none)
+      return ScreenBits{0, 0};
+    else
+      return work.template operator()<F>();
+  });
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/polytope/polytope.h"
+#include "core/exact/forms.h"
 #include "core/query/tolerances.h"
 
 namespace minkray {
@@ -15,42 +15,18 @@ bool is_in_range(double R) {
   return R > tolerance::screen_least_radius && R < tolerance::screen_largest_radius;
 }
 
-bool has_lanes(FormKind kind) {
-  switch (kind) {
-    case FormKind::ball:
-    case FormKind::box:
-    case FormKind::rounded_box:
-    case FormKind::capsule:
-    case FormKind::tapered_capsule:
-    case FormKind::cylinder:
-    case FormKind::frustum:
-      return true;
-    default:
-      return false;
-  }
+exact::Lanes lanes_of(FormKind kind) {
+  return exact::with_form(kind, []<class F>() { return F::lanes; });
 }
 
-/// Least radius of the round parts of a form.
-double least_round(const exact::Form& form) {
-  const auto& a = form.sizes;
-  switch (form.kind) {
-    case FormKind::ball:
-    case FormKind::capsule:
-    case FormKind::cylinder:
-      return a[0];
-    case FormKind::rounded_box:
-      return a[3];
-    case FormKind::tapered_capsule:
-      return std::min(a[0], a[1]);
-    default:
-      return form.R;
-  }
+double least_radius(const exact::Form& form) {
+  return exact::with_form(form.kind, [&]<class F>() { return F::least_radius(form); });
 }
 
 /// A box around the shape, as a form.
 exact::Form box_around(const ShapeDefinition& definition) {
   exact::Form form;
-  form.kind = FormKind::box;
+  form.kind = exact::BoxForm::kind;
   const double R = definition.inner_ball().radius;
   for (int axis = 0; axis < 3; ++axis)
     form.sizes[static_cast<std::size_t>(axis)] =
@@ -67,7 +43,7 @@ ScreenForm screen_form(const exact::Form& form, const Vec3<double>& centre) {
   screen.slope = in_float(form.slope);
   screen.sine = in_float(form.sine);
   screen.R = in_float(form.R);
-  screen.least = in_float(least_round(form));
+  screen.least = in_float(least_radius(form));
   for (int axis = 0; axis < 3; ++axis) {
     screen.scale[static_cast<std::size_t>(axis)] = in_float(form.scale[axis]);
     screen.offset[static_cast<std::size_t>(axis)] = in_float(offset[axis]);
@@ -99,9 +75,8 @@ Screen screen_of(const ShapeDefinition& definition, const Vec3<double>& centre) 
   if (definition.is_extreme()) return screen;
   const exact::Form& own = definition.form();
   const bool is_in_reach = is_in_range(own.R) && is_in_range(own.inner_R);
-  if (own.kind == FormKind::polytope && own.polytope && is_in_reach)
-    screen.planes = planes_of(*own.polytope);
-  screen.is_whole = has_lanes(own.kind) || screen.planes;
+  if (own.polytope && is_in_reach) screen.planes = planes_of(*own.polytope);
+  screen.is_whole = lanes_of(own.kind) == exact::Lanes::sizes || screen.planes;
   const exact::Form form = screen.is_whole ? own : box_around(definition);
   if (!is_in_range(form.R) || !is_in_range(form.inner_R)) return {};
   screen.kind = form.kind;

@@ -45,9 +45,6 @@ struct Screen {
   std::shared_ptr<const std::vector<float>> planes = {};
 };
 
-/// Number of values of FormKind.
-inline constexpr std::size_t form_kinds = static_cast<std::size_t>(FormKind::polytope) + 1;
-
 /// Makes the screening data of a definition. `centre` is the centre of definition.inner_ball(), the
 /// bounding ball of the shape without outer transforms, in the frame to which InstancePlace maps.
 Screen screen_of(const ShapeDefinition& definition, const Vec3<double>& centre);

@@ -14,7 +14,7 @@ struct Seen {
   Mat3<W> map;
 };
 
-template <FormKind kind>
+template <class F>
 [[gnu::always_inline]] inline void look(const Seen& seen, const FormInLanes& form, W& first,
                                         W& last) {
   const Vec3<W>& near = seen.near;
@@ -46,7 +46,7 @@ template <FormKind kind>
                           (line.dd < W(tolerance::screen_longest_squared)) &
                           (line.E < W(tolerance::screen_largest_share) * min(form.least, form.R));
 
-  const exact::Entry<W> entry = enter<kind>(form, line, bounded);
+  const exact::Entry<W> entry = enter<F>(form, line, bounded);
   using std::abs;
   const auto slack_of = [&](const exact::Entry<W>& of) {
     return W(2) * of.e + W(tolerance::screen_digits) * (abs(k) + abs(rest) + abs(of.t));
@@ -57,18 +57,18 @@ template <FormKind kind>
   Mask<W> miss = entry.miss & bounded;
   // If a ray begins on a shape and leaves it, the shape's far side is behind the ray, too.
   if (any(behind)) {
-    const exact::Entry<W> exit = enter_again<kind>(form, line.reversed(), behind);
+    const exact::Entry<W> exit = enter_again<F>(form, line.reversed(), behind);
     miss |= exit.hit & (k + (rest - exit.t) + slack_of(exit) < W(0));
   }
   first = select(miss, infinity, select(sure, lo, W(0)));
   last = select(sure, hi, infinity);
 }
 
-template <FormKind kind>
+template <class F>
 [[gnu::always_inline]] inline ScreenBits look(const Seen& seen, const FormInLanes& form,
                                               const W& limit, Screened& answers) {
   W first, last;
-  look<kind>(seen, form, first, last);
+  look<F>(seen, form, first, last);
   first.store(answers.first.data());
   last.store(answers.last.data());
   // Infinite bounds set no bit, even if the limit is infinite.
@@ -84,7 +84,7 @@ template <FormKind kind>
   for (std::uint32_t left = 0xffu; left != 0;) {
     const Screen* const screen = screens[__builtin_ctz(left)];
     Screened theirs;
-    const ScreenBits bits = look<FormKind::polytope>(seen, FormInLanes(*screen), limits, theirs);
+    const ScreenBits bits = look<exact::PolytopeForm>(seen, FormInLanes(*screen), limits, theirs);
     for (std::size_t lane = 0; lane < screen_lanes; ++lane) {
       if (screens[lane] != screen) continue;
       const std::uint32_t bit = 1u << lane;
@@ -98,7 +98,7 @@ template <FormKind kind>
   return all;
 }
 
-template <FormKind kind>
+template <class F>
 ScreenBits screen(const ScreenList& list, const std::uint32_t* rays, const std::uint32_t* instances,
                   Screened& answers) {
   const InstancePlace* place[screen_lanes];
@@ -140,8 +140,8 @@ ScreenBits screen(const ScreenList& list, const std::uint32_t* rays, const std::
   const W limits(
       W::Lanes{limit(0), limit(1), limit(2), limit(3), limit(4), limit(5), limit(6), limit(7)});
   if (others == 0) [[likely]]
-    return look<kind>(seen, FormInLanes(list.screens[place[0]->body]), limits, answers);
-  if constexpr (kind == FormKind::polytope) {
+    return look<F>(seen, FormInLanes(list.screens[place[0]->body]), limits, answers);
+  if constexpr (F::lanes == exact::Lanes::planes) {
     const Screen* screens[screen_lanes];
     for (std::size_t lane = 0; lane < screen_lanes; ++lane)
       screens[lane] = &list.screens[place[lane]->body];
@@ -150,7 +150,7 @@ ScreenBits screen(const ScreenList& list, const std::uint32_t* rays, const std::
     const ScreenForm* forms[screen_lanes];
     for (std::size_t lane = 0; lane < screen_lanes; ++lane)
       forms[lane] = &list.screens[place[lane]->body].form;
-    return look<kind>(seen, FormInLanes(forms), limits, answers);
+    return look<F>(seen, FormInLanes(forms), limits, answers);
   }
 }
 
@@ -158,7 +158,7 @@ ScreenBits screen(const ScreenList& list, const std::uint32_t* rays, const std::
 
 ScreenBits screen_avx2(FormKind kind, const ScreenList& list, const std::uint32_t* rays,
                        const std::uint32_t* instances, Screened& answers) {
-  return for_kind(kind, [&]<FormKind of>() { return screen<of>(list, rays, instances, answers); });
+  return for_kind(kind, [&]<class F>() { return screen<F>(list, rays, instances, answers); });
 }
 
 }  // namespace minkray

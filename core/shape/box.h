@@ -4,7 +4,6 @@
 
 #include "core/math/vec.h"
 #include "core/support/declared.h"
-#include "core/support/exact_form.h"
 #include "core/support/field.h"
 #include "core/support/jet.h"
 
@@ -19,11 +18,6 @@ struct Box {
   static constexpr auto fields() {
     return std::tuple{Field{"half_extents", &Box::half_extents, Unit::length, Range::not_negative,
                             "half its size along x, y and z"}};
-  }
-
-  ExactForm exact_form() const {
-    const Vec3<double>& h = half_extents;
-    return {FormKind::box, {double(h[0]), double(h[1]), double(h[2])}};
   }
 
   template <class W>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "core/math/vec.h"
-#include "core/support/exact_form.h"
 #include "core/support/field.h"
 #include "core/support/jet.h"
 
@@ -22,10 +21,6 @@ struct Capsule {
         Field{"half_height", &Capsule::half_height, Unit::length, Range::not_negative,
               "half its segment's length: the balls' centres are at z = -half_height and "
               "+half_height"}};
-  }
-
-  ExactForm exact_form() const {
-    return {FormKind::capsule, {double(radius), double(half_height)}};
   }
 
   template <class W>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "core/shape/disk.h"
-#include "core/support/exact_form.h"
 #include "core/support/jet.h"
 
 namespace minkray {
@@ -19,10 +18,6 @@ struct Cone {
         Field{"radius", &Cone::radius, Unit::length, Range::positive, "the radius of its base"},
         Field{"half_height", &Cone::half_height, Unit::length, Range::not_negative,
               "half its height: apex at z = +half_height, base at z = -half_height"}};
-  }
-
-  ExactForm exact_form() const {
-    return {FormKind::frustum, {double(radius), 0, double(half_height)}};
   }
 
   template <class W>

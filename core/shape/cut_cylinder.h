@@ -3,10 +3,11 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "core/math/vec.h"
-#include "core/support/exact_form.h"
+#include "core/support/declared.h"
 #include "core/support/field.h"
 #include "core/support/jet.h"
 
@@ -23,6 +24,7 @@ struct CutCylinder {
   static constexpr std::string_view name = "cut_cylinder";
   static constexpr std::string_view doc =
       "A cylinder around the z axis, cut off by two planes at any angle.";
+  static constexpr Declared declared = {.slanted = true, .heights = true};
   static constexpr auto fields() {
     return std::tuple{
         Field{"radius", &CutCylinder::radius, Unit::length, Range::positive, "its radius"},
@@ -47,13 +49,15 @@ struct CutCylinder {
                   double(needed)};
   }
 
-  ExactForm exact_form() const {
-    const double below = double(heights[0]), above = double(heights[1]);
-    const double middle = below / 2 + above / 2;
-    return {FormKind::cut_cylinder,
-            {double(radius), below - middle, above - middle, double(lower_slope[0]),
-             double(lower_slope[1]), double(upper_slope[0]), double(upper_slope[1])},
-            {0, 0, middle}};
+  /// Half of the planes' distance, measured where they are furthest apart.
+  long double half_thickness() const {
+    using Long = long double;
+    const Long apart = Long(heights[1]) - Long(heights[0]) +
+                       Long(radius) * std::hypot(Long(upper_slope[0]) - Long(lower_slope[0]),
+                                                 Long(upper_slope[1]) - Long(lower_slope[1]));
+    const Long steepness = std::min(std::hypot(lower_slope[0], lower_slope[1]),
+                                    std::hypot(upper_slope[0], upper_slope[1]));
+    return apart / 2 / std::hypot(Long(1), steepness);
   }
 
   template <class W>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "core/shape/disk.h"
-#include "core/support/exact_form.h"
 #include "core/support/jet.h"
 
 namespace minkray {
@@ -19,10 +18,6 @@ struct Cylinder {
         Field{"radius", &Cylinder::radius, Unit::length, Range::positive, "its radius"},
         Field{"half_height", &Cylinder::half_height, Unit::length, Range::not_negative,
               "half its height: the caps are at z = -half_height and +half_height"}};
-  }
-
-  ExactForm exact_form() const {
-    return {FormKind::cylinder, {double(radius), double(half_height)}};
   }
 
   template <class W>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "core/math/vec.h"
-#include "core/support/exact_form.h"
 #include "core/support/field.h"
 #include "core/support/jet.h"
 
@@ -17,10 +16,6 @@ struct Ellipsoid {
   static constexpr auto fields() {
     return std::tuple{Field{"radii", &Ellipsoid::radii, Unit::length, Range::positive,
                             "its radii along x, y and z"}};
-  }
-
-  ExactForm exact_form() const {
-    return {FormKind::ellipsoid, {double(radii[0]), double(radii[1]), double(radii[2])}};
   }
 
   template <class W>

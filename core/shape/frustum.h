@@ -5,7 +5,6 @@
 #include <array>
 
 #include "core/shape/disk.h"
-#include "core/support/exact_form.h"
 #include "core/support/jet.h"
 
 namespace minkray {
@@ -21,10 +20,6 @@ struct Frustum {
                             "the disks' radii: at z = -half_height, at z = +half_height"},
                       Field{"half_height", &Frustum::half_height, Unit::length, Range::not_negative,
                             "half its height"}};
-  }
-
-  ExactForm exact_form() const {
-    return {FormKind::frustum, {double(radii[0]), double(radii[1]), double(half_height)}};
   }
 
   template <class W>

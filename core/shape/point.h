@@ -3,7 +3,6 @@
 #pragma once
 
 #include "core/math/vec.h"
-#include "core/support/exact_form.h"
 #include "core/support/field.h"
 #include "core/support/jet.h"
 
@@ -17,12 +16,6 @@ struct Point {
   static constexpr auto fields() {
     return std::tuple{Field{"position", &Point::position, Unit::length, Range::any,
                             "the point's position", true}};
-  }
-
-  /// A ball of radius 0, so that a rounded point has the closed form of a ball.
-  ExactForm exact_form() const {
-    const Vec3<double>& p = position;
-    return {FormKind::ball, {0}, {double(p[0]), double(p[1]), double(p[2])}};
   }
 
   template <class W>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "core/math/vec.h"
-#include "core/support/exact_form.h"
 #include "core/support/field.h"
 #include "core/support/jet.h"
 #include "core/support/nested.h"
@@ -23,10 +22,6 @@ struct Rounded {
               "the radius by which the shape grows"},
         Field{"shape", &Rounded::shape, Unit::none, Range::any, "the shape to round"}};
   }
-
-  /// Closed form of the inner shape, grown by `radius`; empty if the inner shape has no closed
-  /// form.
-  ExactForm exact_form() const;
 
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {

@@ -5,7 +5,6 @@
 #include <array>
 
 #include "core/math/vec.h"
-#include "core/support/exact_form.h"
 #include "core/support/field.h"
 #include "core/support/jet.h"
 
@@ -21,14 +20,7 @@ struct Segment {
         Field{"points", &Segment::points, Unit::length, Range::any, "its two end points"}};
   }
 
-  /// Closed form for rounded segments; casts at plain segments do not use it.
-  ExactForm exact_form() const {
-    const Vec3<double>&a = points[0], &b = points[1];
-    const Vec3<double> half = (b - a) / 2, middle = a + half;
-    return {
-        FormKind::segment, {half.x(), half.y(), half.z(), 0}, {middle.x(), middle.y(), middle.z()}};
-  }
-
+  /// Returns the first of points that are equally far along n.
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
     const Vec3<W> a = widen<W>(points[0]), b = widen<W>(points[1]);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "core/math/vec.h"
-#include "core/support/exact_form.h"
 #include "core/support/field.h"
 #include "core/support/jet.h"
 
@@ -18,8 +17,6 @@ struct Sphere {
     return std::tuple{
         Field{"radius", &Sphere::radius, Unit::length, Range::positive, "its radius"}};
   }
-
-  ExactForm exact_form() const { return {FormKind::ball, {double(radius)}}; }
 
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {

@@ -24,6 +24,10 @@ struct Superellipsoid {
                             "p: 1 for an octahedron, 2 for an ellipsoid, more for nearly a box"}};
   }
 
+  /// True just above 1, where edges are curved so much more than faces that a model that agrees
+  /// with one plane may be far off (observed at 1 + 2^-14). For exactly 1, the corners are known.
+  bool is_nearly_sharp() const { return exponent > 1.0 && exponent < 1 + least_above_1; }
+
   /// Returns the support point s. By Hoelder's inequality with 1/p + 1/q = 1, s_i = a_i sign(n_i)
   /// (m_i/|m|_q)^(q-1) with m_i = |a_i n_i|. m is scaled by its largest component, so that no power
   /// overflows and p = 1 (q infinite) gives a vertex, or the mean of the vertices that tie.
@@ -116,7 +120,27 @@ struct Superellipsoid {
     return gauge;
   }
 
+  /// About 3^(1/2 - 1/p): the product of the radii of the largest ball inside the shape and the
+  /// smallest ball around it, in units of `radii`.
+  template <class T>
+  T squared_start() const {
+    constexpr T box = T(1.7320508), octahedron = T(0.57735027);
+    return std::max(octahedron, box - (T(2) * box - T(2)) / exponent);
+  }
+
+  /// For p >= 3, the gauge's third derivative is at most about p^2. For smaller p, the derivative
+  /// is unbounded where a coordinate changes sign, and the gauge deviates from the parabola like
+  /// |x|^p.
+  template <class W>
+  W parabola_error(const W& step) const {
+    using T = Lane<W>;
+    const T p = exponent;
+    if (p < T(3)) return power<W>(step, p);
+    return step * step * step * W(T(1) + p * p * T(0.25));
+  }
+
  private:
+  static constexpr double least_above_1 = 0x1p-10;
   /// Lower limit of coordinates that are divisors in the second derivative, which is infinite on
   /// the coordinate planes for p < 2.
   static constexpr double least_curvature = 1.0 / 4096;

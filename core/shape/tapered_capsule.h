@@ -5,7 +5,7 @@
 #include <array>
 
 #include "core/math/vec.h"
-#include "core/support/exact_form.h"
+#include "core/support/declared.h"
 #include "core/support/field.h"
 #include "core/support/jet.h"
 
@@ -18,15 +18,12 @@ struct TaperedCapsule {
   static constexpr std::string_view name = "tapered_capsule";
   static constexpr std::string_view doc =
       "The convex hull of two balls on the z axis; where one holds the other, that ball.";
+  static constexpr Declared declared = {.revolved = true};
   static constexpr auto fields() {
     return std::tuple{Field{"radii", &TaperedCapsule::radii, Unit::length, Range::not_negative,
                             "the balls' radii: at z = -half_height, at z = +half_height"},
                       Field{"half_height", &TaperedCapsule::half_height, Unit::length,
                             Range::not_negative, "half the distance of the balls' centres"}};
-  }
-
-  ExactForm exact_form() const {
-    return {FormKind::tapered_capsule, {double(radii[0]), double(radii[1]), double(half_height)}};
   }
 
   template <class W>

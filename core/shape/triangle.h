@@ -5,7 +5,6 @@
 #include <array>
 
 #include "core/math/vec.h"
-#include "core/support/exact_form.h"
 #include "core/support/field.h"
 #include "core/support/jet.h"
 
@@ -22,14 +21,7 @@ struct Triangle {
         Field{"points", &Triangle::points, Unit::length, Range::any, "its three corners"}};
   }
 
-  /// Closed form for rounded triangles; casts at plain triangles do not use it.
-  ExactForm exact_form() const {
-    ExactForm form{FormKind::triangle, {}, {}};
-    for (std::size_t i = 0; i < 9; ++i)
-      form.sizes[i] = static_cast<double>(points[i / 3][static_cast<int>(i % 3)]);
-    return form;
-  }
-
+  /// Returns the first of points that are equally far along n.
   template <class W>
   Vec3<W> support(const Vec3<W>& n) const {
     const Vec3<W> a = widen<W>(points[0]), b = widen<W>(points[1]), c = widen<W>(points[2]);

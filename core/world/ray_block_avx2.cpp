@@ -70,7 +70,7 @@ void see(const Block& block, const InstancePlace& place, const ScreenForm& form,
 /// Returns lower and upper bounds of t for eight rays at the form; `box` has the parameters at
 /// which the rays enter the instance's box. Lanes that are not open miss. An infinite upper bound
 /// means that the hit is not certain.
-template <FormKind kind>
+template <class F>
 [[gnu::always_inline]] inline void look(const Seen& seen, const FormInLanes& form,
                                         const Vec3<W>& delta, const W& box, W& first, W& last,
                                         Mask<W>& open) {
@@ -91,7 +91,7 @@ template <FormKind kind>
   line.parallel = seen.share * line.dd;
   const Mask<W> bounded = (line.dd > W(tolerance::screen_shortest_squared)) &
                           (line.dd < W(tolerance::screen_longest_squared));
-  const exact::Entry<W> entry = enter<kind>(form, line, bounded);
+  const exact::Entry<W> entry = enter<F>(form, line, bounded);
   const auto slack_of = [&](const exact::Entry<W>& of) {
     return W(2) * of.e + W(tolerance::screen_digits) * (abs(seen.k) + abs(rest) + abs(of.t));
   };
@@ -99,7 +99,7 @@ template <FormKind kind>
   const Mask<W> sure = entry.hit & (lo >= W(0)), behind = entry.hit & (hi < W(0));
   Mask<W> miss = entry.miss & bounded;
   if (any(behind)) {
-    const exact::Entry<W> exit = enter_again<kind>(form, line.reversed(), behind);
+    const exact::Entry<W> exit = enter_again<F>(form, line.reversed(), behind);
     miss |= exit.hit & (seen.k + (rest - exit.t) + slack_of(exit) < W(0));
   }
   open = !miss;
@@ -172,7 +172,7 @@ bool add_other(BlockAnswer& answer, float first, std::uint32_t ray, std::uint32_
 
 enum class Looked { nothing_nearer, nearer, too_much };
 
-template <FormKind kind>
+template <class F>
 Looked look_at_instance(const Seen& seen, const Screen& screen, const MeetingRays& meeting,
                         std::uint32_t instance, BlockAnswer& answer) {
   const FormInLanes form(screen);
@@ -182,7 +182,7 @@ Looked look_at_instance(const Seen& seen, const Screen& screen, const MeetingRay
     Mask<W> open;
     const Vec3<W> delta(W::load(meeting.deltas[0] + at), W::load(meeting.deltas[1] + at),
                         W::load(meeting.deltas[2] + at));
-    look<kind>(seen, form, delta, W::load(meeting.boxes + at), first, last, open);
+    look<F>(seen, form, delta, W::load(meeting.boxes + at), first, last, open);
     const W limit = W::load(meeting.limits + at), lo = W::load(meeting.los + at);
     open &= first <= limit;
     const std::uint32_t used = meeting.count - at < 8 ? (1u << (meeting.count - at)) - 1u : 0xffu;
@@ -272,8 +272,8 @@ bool walk_block(const BlockWorld& world, const Block& block, RayKinds kinds, Blo
         continue;
       }
       Looked looked = Looked::nothing_nearer;
-      for_kind(screen.kind, [&]<FormKind kind>() {
-        looked = look_at_instance<kind>(seen, screen, meeting, instance, answer);
+      for_kind(screen.kind, [&]<class F>() {
+        looked = look_at_instance<F>(seen, screen, meeting, instance, answer);
         return ScreenBits{0, 0};
       });
       if (looked == Looked::too_much) return false;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/exact/ball.h"
 #include "renderer/rays/frame.h"
 
 namespace minkray {
@@ -47,7 +48,8 @@ double growth_to_hold(const ShapeDefinition& shape, const Vec3<double>& axes) {
 /// it is found by other rays.
 Vec3<double> half_axes(const ShapeDefinition& shape) {
   const exact::Form& form = shape.form();
-  if (form.kind == FormKind::ball && !form.is_off_centre) return form.R * form.scale.cwiseInverse();
+  if (form.kind == exact::BallForm::kind && !form.is_off_centre)
+    return form.R * form.scale.cwiseInverse();
   // As long as its box, flat where that is flat.
   const Vec3<double>& box = shape.inner_half_extents();
   const double least = least_thickness * box.maxCoeff();

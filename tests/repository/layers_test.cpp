@@ -243,27 +243,47 @@ constexpr bool is_operator() {
   return found;
 }
 
-TEST(Layers, no_shape_is_named_outside_of_its_header_and_the_list) {
-  // "tapered_capsule" to "TaperedCapsule".
-  const auto type_name = [](std::string_view name) {
-    std::string type;
-    bool upper = true;
-    for (const char c : name) {
-      if (c != '_') type += upper ? static_cast<char>(std::toupper(c)) : c;
-      upper = c == '_';
+/// Converts "tapered_capsule" to "TaperedCapsule".
+std::string type_name(std::string_view name) {
+  std::string type;
+  bool upper = true;
+  for (const char c : name) {
+    if (c != '_') type += upper ? static_cast<char>(std::toupper(c)) : c;
+    upper = c == '_';
+  }
+  return type;
+}
+
+TEST(Layers, a_shape_is_named_in_at_most_six_files) {
+  for (const std::string name : {"cut_cylinder", "tapered_capsule", "superellipsoid"}) {
+    const std::regex named("\\b(" + name + "|" + type_name(name) + "(Form)?)\\b");
+    std::string found;
+    int count = 0;
+    for (const char* folder : {"core", "renderer", "include"}) {
+      for (const SourceFile& file : files_in(folder)) {
+        if (file.name.starts_with("renderer/import/")) continue;  // other programs' shapes
+        if (file.name.ends_with(".pyc") || !std::regex_search(file.text, named)) continue;
+        found += " " + file.name;
+        ++count;
+      }
     }
-    return type;
-  };
+    EXPECT_GE(count, 4) << name << ":" << found;  // the test has found the files
+    EXPECT_LE(count, 6) << name << ":" << found;
+  }
+}
+
+TEST(Layers, shapes_are_named_only_where_shapes_and_forms_are_defined) {
   std::string names;
   for_each_shape_kind([&]<class S>() {
-    // Points and segments are what queries are made of, whatever shapes there are.
-    if (S::name == "point" || S::name == "segment") return;
+    // Queries are made of points and segments, meshes of triangles, and trees of boxes.
+    for (const char* common : {"point", "segment", "triangle", "box"})
+      if (S::name == common) return;
     if (!is_operator<S>()) names += (names.empty() ? "" : "|") + type_name(S::name);
   });
-  const std::regex named("\\b(" + names + ")<");
+  const std::regex named("\\b(" + names + ")\\b");
   for (const SourceFile& file : sources()) {
     const std::string room = folder_of(file.name);
-    if (room == "core/support" || room == "core/shape" || room == "core/derived") continue;
+    if (room == "core/shape" || room == "core/derived" || room == "core/exact") continue;
     // Generated scenes are of particular shapes.
     if (file.name.starts_with("renderer/generate/")) continue;
     // Other programs' files are read there.
@@ -276,7 +296,7 @@ TEST(Layers, no_shape_is_named_outside_of_its_header_and_the_list) {
     std::smatch match;
     EXPECT_FALSE(std::regex_search(file.text, match, named))
         << file.name << " names the shape " << match.str()
-        << ">: what it is to be known by is declared in the shape's header "
+        << ": what is special about it belongs in the shape's header "
            "(core/support/declared.h)";
   }
 }

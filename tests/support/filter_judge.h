@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
+#include "core/exact/polytope_form.h"
 #include "core/proof/certificate.h"
 #include "core/proof/check_certificate.h"
 #include "tests/support/filter_cases.h"
@@ -81,7 +82,7 @@ inline Counted judge_all(const FilterGroup& group, const MakeRays& make_rays) {
       SCOPED_TRACE(one.name + ", " + posed.name);
       const PreparedShape prepared(one.shape, posed.pose);
       const FormKind form = prepared.definition().form().kind;
-      EXPECT_TRUE(form == FormKind::polytope ||
+      EXPECT_TRUE(form == exact::PolytopeForm::kind ||
                   (form != FormKind::none && !std::holds_alternative<Hull>(one.shape.kind)));
       const LineIn line_in = group.oracle(prepared);
       const Shape outer = Transform{one.shape, posed.pose};

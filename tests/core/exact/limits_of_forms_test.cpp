@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "core/cast/cast.h"
+#include "core/exact/frustum.h"
+#include "core/exact/tapered_capsule.h"
 #include "tests/support/random.h"
 
 namespace minkray::testing {
@@ -74,14 +76,14 @@ TEST(LimitsOfForms, frustums_whose_apex_is_far_away_have_no_form) {
     // With a height of 2 and a radius of 1 below, the apex is at 1 + 2 upper / (1 - upper).
     const double above = (radii * std::sqrt(2.0) - 1) / 2, upper = above / (1 + above);
     const PreparedShape frustum(S(Frustum{{1, upper}, 1}));
-    EXPECT_EQ(frustum.definition().form().kind == FormKind::frustum, radii < 8) << radii;
+    EXPECT_EQ(frustum.definition().form().kind == exact::FrustumForm::kind, radii < 8) << radii;
   }
 }
 
 TEST(LimitsOfForms, tapered_capsules_with_hardly_a_ball_at_an_end_have_no_form) {
   for (const double share : {0x1p-1, 0x1p-8, 0x1.2p-10, 0x1.dp-11, 0x1p-13}) {
     const PreparedShape tapered(S(TaperedCapsule{{1, share}, 2}));
-    EXPECT_EQ(tapered.definition().form().kind == FormKind::tapered_capsule, share > 0x1p-10)
+    EXPECT_EQ(tapered.definition().form().kind == exact::TaperedCapsuleForm::kind, share > 0x1p-10)
         << share;
   }
 }
@@ -89,7 +91,8 @@ TEST(LimitsOfForms, tapered_capsules_with_hardly_a_ball_at_an_end_have_no_form) 
 TEST(LimitsOfForms, tapered_capsules_whose_mantle_is_hardly_one_have_no_form) {
   for (const double sine : {0.05, 0.5, 0.985, 0.995}) {
     const PreparedShape tapered(S(TaperedCapsule{{1, 0.1}, 0.45 / sine}));
-    EXPECT_EQ(tapered.definition().form().kind == FormKind::tapered_capsule, sine < 0.99) << sine;
+    EXPECT_EQ(tapered.definition().form().kind == exact::TaperedCapsuleForm::kind, sine < 0.99)
+        << sine;
   }
 }
 

@@ -10,6 +10,7 @@
 #include "core/bvh/traverse.h"
 #include "core/cast/cast.h"
 #include "core/derived/shape_bounds.h"
+#include "core/exact/box.h"
 
 namespace minkray {
 namespace {
@@ -180,7 +181,7 @@ TEST_F(ScreenOf, shapes_without_a_form_have_a_box_around_them) {
   const Shape sum = MinkowskiSum{{Shape(Ellipsoid{{0.4, 0.3, 0.2}}), Shape(Cone{0.3, 0.5})}};
   const std::vector<PreparedShape> shapes(screen_lanes, PreparedShape{sum});
   const Screen screen = screen_of(shapes[0].definition(), Vec3<double>::Zero());
-  EXPECT_EQ(screen.kind, FormKind::box);
+  EXPECT_EQ(screen.kind, exact::BoxForm::kind);
   EXPECT_FALSE(screen.is_whole);
   Seen seen;
   for (int round = 0; round < 2000; ++round) {
@@ -270,8 +271,8 @@ TEST_F(ScreenBounds, directions_of_unusual_length_and_shapes_of_unusual_size_are
     return screen_of(ShapeDefinition(Shape(Sphere{radius})), Vec3<double>::Zero()).kind;
   };
   EXPECT_EQ(kind(0.7e-7), FormKind::none);
-  EXPECT_EQ(kind(1.5e-7), FormKind::ball);
-  EXPECT_EQ(kind(0.7e7), FormKind::ball);
+  EXPECT_EQ(kind(1.5e-7), exact::BallForm::kind);
+  EXPECT_EQ(kind(0.7e7), exact::BallForm::kind);
   EXPECT_EQ(kind(1.5e7), FormKind::none);
 }
 

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "core/exact/box.h"
 #include "core/world/repeated.h"
 #include "core/world/world.h"
 #include "tests/support/shifted.h"
@@ -95,7 +96,7 @@ TEST(Repeated, what_no_ray_meets_costs_none) {
   instances.set_pose(2, at({0, 0, -20}));
   EXPECT_EQ(instances.kind_of_all(), FormKind::none);
   instances.show_to(3, 0);
-  EXPECT_EQ(instances.kind_of_all(), FormKind::box);
+  EXPECT_EQ(instances.kind_of_all(), exact::BoxForm::kind);
 }
 
 }  // namespace

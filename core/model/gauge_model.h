@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The model of a superellipsoid is the shape itself. Its gauge (the scale at which its surface
-// meets a point) is a convex function along the ray, with value 1 where the ray meets the surface.
-// The gradient there is the normal, and one support call in this direction proves the hit. If the
-// least gauge is above 1, two tangents of the gauge that cross above 1 give a separating plane
-// (docs/forms.md, section 9).
+// The model of a shape with a gauge (core/support/declared.h) is the shape itself. Along the ray,
+// the gauge is convex, and 1 on the surface. The gradient there is the normal, and one support call
+// in this direction proves the hit. If the least gauge is above 1, two tangents of the gauge that
+// cross above 1 give a separating plane (docs/forms.md, section 9).
 #pragma once
 
 #include "core/model/line_cast.h"
-#include "core/shape/superellipsoid.h"
 
 namespace minkray {
 
 template <class W, class S>
-class SuperellipsoidModel {
+class GaugeModel {
  public:
   using T = Lane<W>;
 
@@ -22,8 +20,7 @@ class SuperellipsoidModel {
     const Vec3<W>& support_point(const Vec3<W>&) const { return s; }
   };
 
-  SuperellipsoidModel(const S& shape, const Vec3<T>& centre, const Vec3<W>& s, const Vec3<W>& r,
-                      T R)
+  GaugeModel(const S& shape, const Vec3<T>& centre, const Vec3<W>& s, const Vec3<W>& r, T R)
       : shape_(shape),
         from_(widen<W>(centre) + s),
         s_(s),
@@ -128,7 +125,7 @@ class SuperellipsoidModel {
     // Starts where the line meets a ball between the inscribed and the circumscribed ball.
     const W v_squared = v_.squaredNorm(), v_length = sqrt(v_squared), along = u_.dot(v_);
     const Vec3<W> nearest = u_ - v_ * (along / v_squared);
-    const W radius_squared = W(between_balls());
+    const W radius_squared = W(shape_.template squared_start<T>());
     const W depth = max(W(radius_squared - nearest.squaredNorm()), W(0));
     W lambda = -(along + sqrt(depth * v_squared)) / v_squared;
 
@@ -200,21 +197,9 @@ class SuperellipsoidModel {
     return gradient.cwiseProduct(to_unit_).norm() * W(T(2) * tolerance::epsilon<T> * R_);
   }
 
-  /// True if the parabola is as accurate as the gauge over a step of this length, in units of the
-  /// radii. For p >= 3, the gauge's third derivative is at most about p^2. For smaller p, the
-  /// derivative is unbounded where a coordinate changes sign, and the gauge deviates from the
-  /// parabola like |x|^p.
+  /// True if the parabola is as accurate as the gauge over a step of this length.
   Mask<W> trusted(const W& step) const {
-    const T p = shape_.exponent;
-    if (p < T(3)) return power<W>(step, p) <= W(tolerance::epsilon<T>);
-    return step * step * step * W(T(1) + p * p * T(0.25)) <= W(tolerance::epsilon<T>);
-  }
-
-  /// The square of the radius of the starting ball, in units of the radii: about 3^(1/2 - 1/p), the
-  /// product of the radii of the largest ball inside the shape and the smallest ball around it.
-  T between_balls() const {
-    constexpr T box = T(1.7320508), octahedron = T(0.57735027);
-    return std::max(octahedron, box - (T(2) * box - T(2)) / shape_.exponent);
+    return shape_.parabola_error(step) <= W(tolerance::epsilon<T>);
   }
 
   /// Most rays need two or three evaluations; those that graze a flat spot or a sharp edge, up to
