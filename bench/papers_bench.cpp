@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "bench/papers/comparisons.h"
-#include "core/shape_cast/distance.h"
+#include "renderer/shape_cast/distance.h"
 
 int main() {
   using namespace minkray;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/shape_cast/distance.h"
+#include "renderer/shape_cast/distance.h"
 
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>

@@ -4,8 +4,8 @@
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
 #include "bench/papers/comparisons.h"
-#include "core/shape_cast/distance.h"
-#include "core/shape_cast/shape_cast.h"
+#include "renderer/shape_cast/distance.h"
+#include "renderer/shape_cast/shape_cast.h"
 
 namespace minkray::bench {
 namespace {

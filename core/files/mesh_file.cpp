@@ -11,13 +11,12 @@
 
 #include "core/files/obj_file.h"
 #include "core/files/regular_file.h"
-#include "core/files/text_lines.h"
+#include "core/files/text.h"
 #include "core/files/triangle_fans.h"
 
 namespace minkray {
 namespace {
 
-using namespace text_file;
 using Vertices = std::vector<Vec3<double>>;
 
 /// Binary STL: a header, the number of triangles, then for each a normal, three corners, and an
@@ -70,7 +69,7 @@ Vertices vertices_of_text_stl(std::string_view text, TriangleFans fans) {
     std::string_view line = next_line(text);
     if (line_of_solid == 0) {
       if (begins_facet(line)) {
-        throw std::runtime_error(place(line_number) +
+        throw std::runtime_error(place_of_line(line_number) +
                                  "a facet must be between \"solid\" and \"endsolid\"");
       }
       // At the end of the file, even "sol" begins a solid: a truncated one.

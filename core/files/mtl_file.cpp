@@ -3,21 +3,15 @@
 
 #include <algorithm>
 
-#include "core/files/text_lines.h"
+#include "core/files/text.h"
 
 namespace minkray {
 namespace {
 
-using namespace text_file;
-
-std::string_view trimmed(std::string_view line) {
-  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
-  return line.substr(0, line.find_last_not_of(" \t") + 1);
-}
-
 std::optional<double> next_part(std::string_view& line) {
   double number = 0;
-  if (!read_number(next_word(line), number) || !(number >= 0 && number <= 1)) return std::nullopt;
+  if (!read_number(bare_number(next_word(line)), number) || !(number >= 0 && number <= 1))
+    return std::nullopt;
   return number;
 }
 
@@ -33,13 +27,13 @@ std::string picture_of(std::string_view line) {
   for (;;) {
     std::string_view rest = line;
     const std::string_view option = next_word(rest);
-    if (!option.starts_with('-') || option.size() < 2) return std::string(trimmed(line));
+    if (!option.starts_with('-') || option.size() < 2) return std::string(without_blanks(line));
     int left = values_of_option(option);
     for (double number = 0; left > 0; --left) {
       std::string_view behind = rest;
       const std::string_view value = next_word(behind);
       // Offsets and scales may have fewer than three numbers.
-      if (left < values_of_option(option) && !read_number(value, number)) break;
+      if (left < values_of_option(option) && !read_number(bare_number(value), number)) break;
       rest = behind;
     }
     line = rest;
@@ -53,9 +47,9 @@ void read_mtl(std::string_view text, std::map<std::string, MtlMaterial>& materia
   text = without_byte_order_mark(text);
   while (!text.empty()) {
     std::string_view line = next_line(text);
-    line = trimmed(line.substr(0, line.find('#')));
+    line = without_blanks(line.substr(0, line.find('#')));
     const std::string_view key = next_word(line);
-    if (key == "newmtl") material = &materials[std::string(trimmed(line))];
+    if (key == "newmtl") material = &materials[std::string(without_blanks(line))];
     if (!material) continue;
     if (key == "Kd") {
       const auto r = next_part(line), g = next_part(line), b = next_part(line);

@@ -5,12 +5,10 @@
 #include <map>
 #include <utility>
 
-#include "core/files/text_lines.h"
+#include "core/files/text.h"
 
 namespace minkray {
 namespace {
-
-using namespace text_file;
 
 /// Numbers the groups of an OBJ file: one per pair of an object's and a group's name. Faces above
 /// the first name have no group, nor do faces below a "g" without a name.
@@ -53,14 +51,14 @@ class ObjAttributes {
     if (keyword == "vn") {
       Vec3<double> normal = Vec3<double>::Zero();
       bool is_good = true;
-      for (double& x : normal) is_good = is_good && read_number(next_word(line), x);
+      for (double& x : normal) is_good = is_good && read_number(bare_number(next_word(line)), x);
       all_->normals.push_back(is_good ? attribute_normal(normal) : Vec3<float>::Zero());
     } else {
       std::array<float, 2> uv = {0, 0};
       constexpr float bad = std::numeric_limits<float>::quiet_NaN();
-      if (!read_number(next_word(line), uv[0])) uv[0] = bad;
+      if (!read_number(bare_number(next_word(line)), uv[0])) uv[0] = bad;
       const std::string_view v = next_word(line);
-      if (!v.empty() && !read_number(v, uv[1])) uv[1] = bad;
+      if (!v.empty() && !read_number(bare_number(v), uv[1])) uv[1] = bad;
       all_->uvs.push_back({uv[0], 1 - uv[1]});
     }
   }
@@ -96,7 +94,7 @@ class ObjAttributes {
     constexpr std::uint32_t wrong = MeshAttributes::none - 1;
     if (word.empty()) return MeshAttributes::none;
     long long index = 0;
-    if (!read_number(word, index) || index == 0) return wrong;
+    if (!read_number(bare_number(word), index) || index == 0) return wrong;
     if (index < 0) index += static_cast<long long>(count) + 1;
     return index > 0 && index < static_cast<long long>(wrong)
                ? static_cast<std::uint32_t>(index - 1)
@@ -122,12 +120,12 @@ class ObjFaces {
       const std::string_view word = next_word(line);
       if (word.empty()) break;
       long long index = 0;
-      if (!read_number(word.substr(0, word.find('/')), index) || index == 0) {
-        throw std::runtime_error(place(line_number) +
+      if (!read_number(bare_number(word.substr(0, word.find('/'))), index) || index == 0) {
+        throw std::runtime_error(place_of_line(line_number) +
                                  "a face must name its vertices by whole numbers, from 1 or -1 on");
       }
       if (index < 0 && count < std::size_t{0} - static_cast<std::size_t>(index)) {
-        throw std::runtime_error(place(line_number) + "a face names vertex " +
+        throw std::runtime_error(place_of_line(line_number) + "a face names vertex " +
                                  std::to_string(index) + ", but there are " +
                                  std::to_string(count) + " vertices above it");
       }
@@ -149,7 +147,7 @@ class ObjFaces {
   /// Checks that all faces name vertices among the first `count`.
   void check(std::size_t count) const {
     if (largest_ == 0 || static_cast<std::size_t>(largest_) <= count) return;
-    throw std::runtime_error(place(line_of_largest_) + "a face names vertex " +
+    throw std::runtime_error(place_of_line(line_of_largest_) + "a face names vertex " +
                              std::to_string(largest_) + ", but the file has " +
                              std::to_string(count) + " vertices (is it cut off?)");
   }
@@ -200,7 +198,8 @@ std::vector<Vec3<double>> vertices_of_obj(std::string_view text, TriangleFans fa
       whole_line += next_obj_line(text);
     }
     if (whole_line.ends_with('\\')) {
-      throw std::runtime_error(place(line_number) + "is cut off: no line follows its \"\\\"");
+      throw std::runtime_error(place_of_line(line_number) +
+                               "is cut off: no line follows its \"\\\"");
     }
     if (word == "v") vertices.push_back(coordinates(whole_line, line_number));
     if (is_attribute) attributes.add(word, whole_line);

@@ -4,8 +4,25 @@
 
 #include "core/files/mesh_attributes.h"
 #include "core/files/mesh_file.h"
+#include "core/files/text.h"
 
 namespace minkray {
+
+inline std::string place_of_line(std::size_t number) {
+  return "line " + std::to_string(number) + ": ";
+}
+
+/// Returns the three coordinates at the front of the line.
+inline Vec3<double> coordinates(std::string_view line, std::size_t line_number) {
+  Vec3<double> vertex;
+  for (double& coordinate : vertex) {
+    if (!read_number(bare_number(next_word(line)), coordinate) || !std::isfinite(coordinate)) {
+      throw std::runtime_error(place_of_line(line_number) +
+                               "a vertex must be three finite numbers");
+    }
+  }
+  return vertex;
+}
 
 /// Numbers of a corner's vertex, texture coordinates and normal.
 struct FaceCorner {

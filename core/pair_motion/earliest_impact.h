@@ -20,7 +20,6 @@ inline EarliestImpact nothing_met(double t_max) {
   EarliestImpact found;
   found.impact.status = ImpactStatus::miss;
   found.impact.t_lo = t_max;
-  found.impact.distance = std::numeric_limits<double>::infinity();
   return found;
 }
 

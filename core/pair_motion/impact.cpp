@@ -256,8 +256,6 @@ class Advance {
     if (options_.points_of_misses) {
       const SignedDistance there = at(t_end);
       if (!there.is_unknown()) return finish(ImpactStatus::miss, t_end, t_end, there);
-      // The distance overflows.
-      result_.distance = std::numeric_limits<double>::infinity();
     }
     result_.normal = normal;
     result_.status = ImpactStatus::miss;
@@ -292,7 +290,6 @@ class Advance {
     result_.t_lo = t_lo;
     result_.t_hi = t_hi;
     result_.normal = now.normal;
-    result_.distance = std::numeric_limits<double>::infinity();
     if (now.is_unknown()) return result_;
     const Vec3<double> middle = middle_in_world(a_, of_a_.at(t_lo));
     result_.point_a = middle + now.point_a;

@@ -50,9 +50,9 @@ struct Impact {
   Vec3<double> point_a = Vec3<double>::Zero();
   Vec3<double> point_b = Vec3<double>::Zero();
   Vec3<double> normal = Vec3<double>::Zero();
-  /// Distance at t_lo. Infinite if it is unknown, and then point_a and point_b are not set. For a
-  /// miss without `points_of_misses`: 0, and the points are not set either.
-  double distance = 0;
+  /// Distance at t_lo. Infinite if it is unknown, as for a miss without `points_of_misses`; point_a
+  /// and point_b are then not set.
+  double distance = std::numeric_limits<double>::infinity();
   int steps = 0;  ///< number of distance queries
 };
 

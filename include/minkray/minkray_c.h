@@ -536,7 +536,7 @@ typedef enum minkray_impact_status {
 typedef struct minkray_impact {
   double t_lo;     /* no contact before this time (proven); t_max if MINKRAY_NO_IMPACT */
   double t_hi;     /* time of contact; infinite if MINKRAY_NO_IMPACT or MINKRAY_IMPACT_UNDECIDED */
-  double distance; /* of the two shapes at t_lo; infinite if unknown */
+  double distance; /* of the two shapes at t_lo; infinite if unknown, as for a miss of a mesh */
   double point_a[3];
   double point_b[3];
   double normal[3];

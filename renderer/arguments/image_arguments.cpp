@@ -3,10 +3,11 @@
 #include "renderer/scene/framing.h"
 
 #include <algorithm>
-#include <charconv>
 #include <iostream>
 #include <optional>
 
+#include "core/files/text.h"
+#include "core/support/named_kind.h"
 #include "renderer/arguments/import_arguments.h"
 #include "renderer/arguments/scene_file.h"
 #include "renderer/base/errors.h"
@@ -28,24 +29,8 @@ namespace {
 constexpr int max_pixels = 1 << 27;
 constexpr int max_side = 1 << 16;
 
-/// Parses whole numbers with a separator between them; nullopt if there is anything else.
-std::optional<std::vector<int>> integers(const std::string& text, char separator) {
-  std::vector<int> numbers;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  for (;;) {
-    int number = 0;
-    const auto [next, error] = std::from_chars(at, end, number);
-    if (error != std::errc()) return std::nullopt;
-    numbers.push_back(number);
-    if (next == end) return numbers;
-    if (*next != separator) return std::nullopt;
-    at = next + 1;
-  }
-}
-
 PixelRect parse_crop(const std::string& text, const Resolution& resolution) {
-  const auto numbers = integers(text, ',');
+  const auto numbers = numbers_between<int>(text, ',');
   const auto wrong = [&](const std::string& why) -> WrongUsage {
     return WrongUsage("--crop: " + why + " (got " + text + ")");
   };
@@ -61,7 +46,7 @@ PixelRect parse_crop(const std::string& text, const Resolution& resolution) {
 }  // namespace
 
 Resolution parse_resolution(const std::string& text) {
-  const auto numbers = integers(text, 'x');
+  const auto numbers = numbers_between<int>(text, 'x');
   const auto wrong = [&](const std::string& why) -> WrongUsage {
     return WrongUsage("--resolution: " + why + " (got " + text + ")");
   };
@@ -77,9 +62,7 @@ Resolution parse_resolution(const std::string& text) {
 
 std::uint64_t parse_seed(const std::string& text) {
   std::uint64_t seed = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, seed);
-  if (error != std::errc() || rest != end)
+  if (!read_number(text, seed))
     throw WrongUsage("--seed: must be a whole number from 0 to 18446744073709551615 (got " + text +
                      ")");
   return seed;
@@ -220,14 +203,13 @@ RenderOptions ImageArguments::render_options(const Scene& loaded, std::size_t pa
 }
 
 CastOptions cast_options(const std::string& solver, const std::string& option) {
+  const SolverDescription* const known = row_named(solver_descriptions, solver);
+  if (!known)
+    throw WrongUsage(option + ": must be one of " + listed(names_in(solver_descriptions)) +
+                     " (got " + solver + ")");
   CastOptions options;
-  std::string names;
-  for (const SolverDescription& description : solver_descriptions) {
-    options.solver = description.kind;
-    if (description.name == solver) return options;
-    names += (names.empty() ? "" : ", ") + std::string(description.name);
-  }
-  throw WrongUsage(option + ": must be one of " + names + " (got " + solver + ")");
+  options.solver = known->kind;
+  return options;
 }
 
 void write_images(const std::vector<std::string>& outputs, const Image& picture,

@@ -3,6 +3,7 @@
 
 #include "renderer/cli/options.h"
 #include "renderer/import/import.h"
+#include "renderer/scene_json/read_split.h"
 
 namespace minkray {
 
@@ -26,39 +27,26 @@ Option add_import_options(const Verb& verb, ImportOptions& options, bool rows) {
   verb.add_option(
           "--geometry",
           [&options](const std::string& name) {
-            options.geometry = name == "collision" ? GeometryChoice::collision
-                               : name == "all"     ? GeometryChoice::all
-                                                   : GeometryChoice::visual;
+            options.geometry = kind_named(geometry_choices, name);
           },
           std::string("Robot shapes to use (default ") +
-              (options.geometry == GeometryChoice::visual ? "visual" : "collision") +
-              "):\nvisual: visual shapes, or collision shapes if there are none\n"
-              "collision: collision shapes\nall: both")
-      .one_of({"visual", "collision", "all"})
+              std::string(name_in(geometry_choices, options.geometry)) +
+              "):" + lines_of_help(geometry_choices))
+      .one_of(names_in(geometry_choices))
       .group(group);
   verb.add_option(
           "--split",
-          [&options](const std::string& name) {
-            options.split = name == "groups"       ? MeshSplit::groups
-                            : name == "components" ? MeshSplit::components
-                                                   : MeshSplit::none;
-          },
-          "How to split a mesh into convex hulls:\nnone: no split (default)\n"
-          "groups: one hull per named part of the file\n"
-          "components: one hull per connected part")
-      .one_of({"none", "groups", "components"})
+          [&options](const std::string& name) { options.split = kind_named(mesh_splits, name); },
+          "How to split a mesh into convex hulls:" + lines_of_help(mesh_splits))
+      .one_of(names_in(mesh_splits))
       .group(group);
   verb.add_option(
           "--meshes",
-          [&options](const std::string& name) {
-            options.meshes = name == "exact" ? MeshChoice::exact : MeshChoice::hull;
-          },
-          "How to represent robot meshes:\n"
-          "exact: triangles\n"
-          "hull: convex hulls\n"
-          "Default: hull if --split is given, or if the command is distance, clearance or verify "
-          "and the robot is an MJCF file; otherwise exact")
-      .one_of({"hull", "exact"})
+          [&options](const std::string& name) { options.meshes = kind_named(mesh_choices, name); },
+          "How to represent robot meshes:" + lines_of_help(mesh_choices) +
+              "\nDefault: hull if --split is given, or if the command is distance, clearance or "
+              "verify and the robot is an MJCF file; otherwise exact")
+      .one_of(names_in(mesh_choices))
       .group(group);
   verb.add_option("--keyframe", options.keyframe, "Keyframe to use, by name or number (MJCF)")
       .takes("NAME")

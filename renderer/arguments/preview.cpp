@@ -10,20 +10,16 @@
 #include <iostream>
 #include <string_view>
 
+#include "core/support/named_kind.h"
 #include "renderer/cli/options.h"
 #include "renderer/io/terminal_picture.h"
 
 namespace minkray {
 namespace {
 
-struct Way {
-  std::string_view name;
-  TerminalGraphics graphics;
-};
-
-constexpr Way ways[] = {{"kitty", TerminalGraphics::kitty},
-                        {"sixel", TerminalGraphics::sixel},
-                        {"blocks", TerminalGraphics::blocks}};
+constexpr NamedKind<TerminalGraphics> protocols[] = {{TerminalGraphics::kitty, "kitty", ""},
+                                                     {TerminalGraphics::sixel, "sixel", ""},
+                                                     {TerminalGraphics::blocks, "blocks", ""}};
 
 /// Width of a terminal that does not report it.
 constexpr int usual_columns = 80;
@@ -65,7 +61,7 @@ std::string device_attributes() {
   return answer;
 }
 
-TerminalGraphics best_way() {
+TerminalGraphics best_protocol() {
   if (isatty(STDOUT_FILENO) == 0) return TerminalGraphics::blocks;
   if (has_kitty_graphics()) return TerminalGraphics::kitty;
   const std::string answer = device_attributes();
@@ -77,8 +73,8 @@ TerminalGraphics best_way() {
 }  // namespace
 
 void PreviewArguments::add_to(const Verb& verb) {
-  std::vector<std::string> names{"auto"};
-  for (const Way& way : ways) names.emplace_back(way.name);
+  std::vector<std::string> names = names_in(protocols);
+  names.insert(names.begin(), "auto");
   verb.add_flag("--preview{auto}", preview,
                 "Also show the picture in the terminal (auto: the best protocol that the "
                 "terminal supports)")
@@ -90,13 +86,8 @@ void show_preview(const Image& picture, const PreviewArguments& arguments, Previ
   const bool is_on_screen = place == PreviewPlace::top_of_screen;
   if (is_on_screen && isatty(STDOUT_FILENO) == 0) return;
   if (is_on_screen) std::cout << "\x1b[H\x1b[2J";
-  TerminalGraphics graphics = TerminalGraphics::blocks;
-  if (arguments.preview == "auto") {
-    graphics = best_way();
-  } else {
-    for (const Way& way : ways)
-      if (way.name == arguments.preview) graphics = way.graphics;
-  }
+  const NamedKind<TerminalGraphics>* const named = row_named(protocols, arguments.preview);
+  const TerminalGraphics graphics = named ? named->kind : best_protocol();
   std::cout << terminal_picture(picture, graphics, terminal_columns()) << std::flush;
 }
 

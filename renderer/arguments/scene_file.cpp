@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/files/text.h"
 #include "renderer/base/errors.h"
 #include "renderer/io/png.h"
 #include "renderer/json/closest_word.h"
@@ -55,12 +56,10 @@ std::string scene_file(const std::string& name) {
     const fs::path file = folder / (name + ".json");
     if (fs::exists(file, error)) return file.string();
   }
-  std::string names;
   const std::vector<std::string> known = built_in_scenes();
   const auto meant = closest_word(name, known);
-  for (const std::string& scene : known) names += (names.empty() ? "" : ", ") + scene;
   throw BadInput(name + ": must be a scene file or one of the scenes that come with Minkray (" +
-                 (names.empty() ? "none is here" : names) + ")" +
+                 (known.empty() ? "none is here" : listed(known)) + ")" +
                  (meant ? "; did you mean `" + *meant + "`?" : ""));
 }
 

@@ -5,81 +5,42 @@
 #include <cmath>
 #include <limits>
 
-#include "core/pair_distance/half_space_distance.h"
 #include "core/pair_motion/least_distance.h"
 #include "core/parallel/parallel.h"
-#include "renderer/clearance/body_pair.h"
+#include "renderer/clearance/step_pair.h"
 
 namespace minkray {
 namespace {
 
-/// Two bodies during one step, in the frame that what they hang on has in common.
 class MovingBodies : public MovingPair {
  public:
   MovingBodies(const ClearanceBody& a, const ClearanceBody& b, StepMotion& motion)
-      : a_(a), b_(b), motion_(motion) {
-    const bool is_in_world = a.plane || b.plane;
-    frame_ = is_in_world ? -1 : motion.common_ancestor(a.link_index, b.link_index);
-    double reaches = 0;
-    for (const ClearanceBody* body : {&a, &b}) {
-      if (body->plane) continue;
-      const MotionBound bound = motion.bound(body->link_index, frame_, body->reach());
-      is_within_numbers_ &= bound.is_within_numbers();
-      speed += bound.speed;
-      acceleration += bound.acceleration;
-      size += body->ball_radius();
-      loss_ += bound.rounding + body->middle.loss;
-      if (body->link_index >= 0) reaches += bound.reach;
-    }
-    loss_ += motion.turn_error(frame_) * reaches;
-    if ((a.mesh || b.mesh) && !is_in_world) least = 0;
+      : a_(a), b_(b), motion_(motion), bound_(step_bound(a, b, motion)) {
+    speed = bound_.speed;
+    acceleration = bound_.acceleration;
+    size = bound_.size;
+    if ((a.mesh || b.mesh) && !a.plane && !b.plane) least = 0;
   }
 
-  /// Points are seen from A's middle, or of half-spaces in the world.
   SignedDistance at(double s, double at_most) const override {
-    const Place of_a = place(a_, s), of_b = place(b_, s);
-    if (a_.plane) return distance_to_half_space(*a_.plane, b_, of_b.linear, {of_b.middle, loss_});
-    if (b_.plane) {
-      SignedDistance found =
-          distance_to_half_space(*b_.plane, a_, of_a.linear, {of_a.middle, loss_});
-      std::swap(found.point_a, found.point_b);
-      found.normal = -found.normal;
-      return found;
-    }
     SignedDistanceOptions options;
     options.at_most = at_most;
-    return distance_between(a_, of_a.linear, b_, of_b.linear, between(of_a, of_b), options);
+    return moment(s).distance(options);
   }
-
-  double gap(const Vec3<double>& n, double s) const override {
-    if (a_.plane || b_.plane) {
-      const SignedDistance there = at(s, 0);
-      const double turned = n.dot(there.normal);
-      // Along any other direction a half-space has no end.
-      return turned > 1 - 1e-12 ? there.lower : -std::numeric_limits<double>::infinity();
-    }
-    const Place of_a = place(a_, s), of_b = place(b_, s);
-    return gap_between(a_, of_a.linear, b_, of_b.linear, between(of_a, of_b), n);
-  }
+  double gap(const Vec3<double>& n, double s) const override { return moment(s).gap(n); }
 
   /// Converts a result at s to world space.
-  SignedDistance in_world(SignedDistance found, double s) const {
-    if (a_.plane || b_.plane || found.normal.isZero(0)) return found;
-    const Mat3<double> turn = frame_turn(s);
-    const Vec3<double> middle = place(a_, s).middle.high;
-    found.point_a = middle + turn * found.point_a;
-    found.point_b = middle + turn * found.point_b;
-    found.normal = turn * found.normal;
-    return found;
+  SignedDistance in_world(const SignedDistance& found, double s) const {
+    return moment(s).in_world(found);
   }
 
   /// If not, nothing can be proven about the step.
-  bool is_within_numbers() const { return is_within_numbers_; }
+  bool is_within_numbers() const { return bound_.is_within_numbers; }
 
   /// No distance of the step is less, by the balls around the two alone.
   double lower_by_balls() const {
     if (a_.plane || b_.plane) return -std::numeric_limits<double>::infinity();
-    const Between apart = between(place(a_, 0.5), place(b_, 0.5));
+    const Between apart = moment(0.5).between;
     const double distance = length_of(apart.x), lower = distance - size - speed / 2 -
                                                         core_rounding * (distance + size + speed) -
                                                         apart.loss;
@@ -88,44 +49,13 @@ class MovingBodies : public MovingPair {
   }
 
  private:
-  /// Place of a body: the middle in the world, the turn to the axes of the common frame.
-  struct Place {
-    Mat3<double> linear;
-    TwoFoldVec3<double> middle;
-    const Affine<double>* frame;
-  };
-
-  Mat3<double> frame_turn(double s) const {
-    if (frame_ < 0) return Mat3<double>::Identity();
-    return motion_.links_at(s)[static_cast<std::size_t>(frame_)].linear;
-  }
-
-  Place place(const ClearanceBody& body, double s) const {
-    const StepMotion::Places& links = motion_.places_at(s);
-    const Affine<double>* frame =
-        frame_ < 0 ? nullptr : &links.poses[static_cast<std::size_t>(frame_)];
-    Place found{body.linear, body.middle.at, frame};
-    if (body.link_index >= 0) {
-      const auto link = static_cast<std::size_t>(body.link_index);
-      const Mat3<double>& turn = links.poses[link].linear;
-      found.linear = turn * body.linear;
-      found.middle = links.origin(link) +
-                     TwoFoldVec3<double>(turn * body.middle.at.high, turn * body.middle.at.low);
-    }
-    if (frame) found.linear = frame->linear.transpose() * found.linear;
-    return found;
-  }
-
-  Between between(const Place& of_a, const Place& of_b) const {
-    const Vec3<double> x = (of_b.middle - of_a.middle).rounded();
-    return {of_a.frame ? Vec3<double>(of_a.frame->linear.transpose() * x) : x, loss_};
+  StepMoment moment(double s) const {
+    return {a_, place_of(a_, motion_, s), b_, place_of(b_, motion_, s), bound_, motion_, s};
   }
 
   const ClearanceBody &a_, &b_;
   StepMotion& motion_;
-  int frame_;
-  bool is_within_numbers_ = true;
-  double loss_ = 0;  ///< of the bodies' places, as the common frame has them
+  StepBound bound_;
 };
 
 class Search {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/cli/help_page.h"
+#include "core/files/text.h"
 
 #include <algorithm>
 #include <sstream>
@@ -38,13 +39,8 @@ std::string entry(const std::string& label, const std::string& text, std::size_t
 }
 
 std::string label_of(const OptionDescription& option) {
-  std::string label = option.place;
-  for (const std::string& flag : option.flags) label += (label.empty() ? "" : ",") + flag;
-  if (option.is_value_optional) {
-    std::string values;
-    for (const std::string& choice : option.choices) values += (values.empty() ? "" : "|") + choice;
-    return label + " [=" + values + "]";
-  }
+  std::string label = option.flags.empty() ? option.place : listed(option.flags, {}, ",");
+  if (option.is_value_optional) return label + " [=" + listed(option.choices, {}, "|") + "]";
   if (!option.value.empty()) label += " " + option.value;
   return label + (option.is_repeated ? " ..." : "");
 }
@@ -96,13 +92,11 @@ std::string whole_doc(const OptionDescription& option) {
   if (option.is_required && !option.flags.empty()) facts.emplace_back("required");
   if (!option.range.empty()) facts.push_back(option.range);
   if (!option.default_value.empty()) facts.push_back("default " + option.default_value);
-  std::string together;
-  for (const std::string& fact : facts) together += (together.empty() ? "" : "; ") + fact;
+  const std::string together = listed(facts, {}, "; ");
   std::string doc = option.doc;
   if (!option.choices.empty() && doc.find('\n') == doc.npos && !option.is_value_optional) {
-    doc += doc.empty() || doc.back() == '.' ? "" : ":";
-    for (std::size_t i = 0; i < option.choices.size(); ++i)
-      doc += (i == 0 ? " " : ", ") + option.choices[i];
+    doc += doc.empty() || doc.back() == '.' ? " " : ": ";
+    doc += listed(option.choices);
   }
   if (together.empty()) return doc;
   const std::size_t end = std::min(doc.find('\n'), doc.size());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/cli/man_page.h"
+#include "core/files/text.h"
 
 namespace minkray {
 namespace {
@@ -30,9 +31,7 @@ std::string heading(const std::string& name) {
 
 std::string name_of(const OptionDescription& option) {
   if (option.flags.empty()) return option.place;
-  std::string names;
-  for (const std::string& flag : option.flags) names += (names.empty() ? "" : ", ") + flag;
-  return names;
+  return listed(option.flags);
 }
 
 std::string synopsis(const VerbDescription& verb) {

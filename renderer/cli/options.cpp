@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "core/files/text.h"
 #include "renderer/cli/help_page.h"
 #include "renderer/cli/usage_errors.h"
 #include "renderer/cli/verbs.h"
@@ -51,19 +52,14 @@ Option Option::between(std::size_t least, std::size_t most) const {
 }
 
 Option Option::one_of(const std::vector<std::string>& names) const {
-  std::string all, choices;
-  for (const std::string& name : names) {
-    all += (all.empty() ? "" : ", ") + name;
-    choices += (choices.empty() ? "" : ",") + name;
-  }
   option_->check(CLI::Validator(
-      [names, all](const std::string& value) -> std::string {
+      [names](const std::string& value) -> std::string {
         if (std::ranges::find(names, value) != names.end()) return "";
         const std::string meant = value_meant(value, names);
-        return "must be one of " + all + " (got " + value + ")" +
+        return "must be one of " + listed(names) + " (got " + value + ")" +
                (meant.empty() ? "" : "; " + meant);
       },
-      "{" + choices + "}"));
+      "{" + listed(names, {}, ",") + "}"));
   return *this;
 }
 
@@ -210,12 +206,9 @@ namespace {
 
 /// Choices in the braces of a type's name such as "TEXT:{quality,speed}".
 std::vector<std::string> choices_in(const std::string& type) {
-  std::vector<std::string> choices;
   const std::size_t open = type.find('{'), close = type.rfind('}');
-  if (open == std::string::npos || close == std::string::npos || close < open) return choices;
-  std::istringstream names(type.substr(open + 1, close - open - 1));
-  for (std::string name; std::getline(names, name, ',');) choices.push_back(name);
-  return choices;
+  if (open == std::string::npos || close == std::string::npos || close < open) return {};
+  return pieces_of(type.substr(open + 1, close - open - 1), ',');
 }
 
 /// Name of a value, from a type's name such as "INT:INT in [0 - 64]", "HOST:PORT" or "TEXT:{a,b}".

@@ -173,9 +173,9 @@ void answer_line(const Line& line, const std::string& place, MeshFiles& meshes,
 
 ExitCode cast(const CastVerbOptions& options) {
   check_tolerance(options.tolerance);
-  const AnswerOptions answer_options{solver_named(options.solver),
-                                     subalgorithm_named(options.subalgorithm), options.tolerance,
-                                     options.trace, options.certify};
+  const AnswerOptions answer_options{kind_named(solver_descriptions, options.solver),
+                                     kind_named(subalgorithm_descriptions, options.subalgorithm),
+                                     options.tolerance, options.trace, options.certify};
 
   std::ifstream file;
   if (options.file != "-") {
@@ -260,7 +260,7 @@ void add_cast(Parser& parser, ExitCode& exit_code) {
       .reads_file();
   add_solver_option(verb, options->solver);
   verb.add_option("--subalgorithm", options->subalgorithm, "Distance subalgorithm of GJK")
-      .one_of(subalgorithm_names())
+      .one_of(names_in(subalgorithm_descriptions))
       .show_default();
   add_tolerance(verb, options->tolerance);
   verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")

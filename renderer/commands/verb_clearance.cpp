@@ -5,12 +5,13 @@
 #include <memory>
 #include <sstream>
 
+#include "core/files/text.h"
 #include "core/parallel/parallel.h"
 #include "renderer/arguments/allowed_links.h"
 #include "renderer/arguments/import_arguments.h"
+#include "renderer/base/csv.h"
 #include "renderer/clearance/clearance.h"
 #include "renderer/clearance/swept_scene.h"
-#include "renderer/cli/csv_text.h"
 #include "renderer/cli/exit_code.h"
 #include "renderer/cli/file_ending.h"
 #include "renderer/cli/options.h"
@@ -78,18 +79,11 @@ std::string steps_text(const Clearance& clearance, const JointPath& path,
   return text.str();
 }
 
-double number_of(const std::string& text) {
-  double number = 0;
-  const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || next != text.data() + text.size() || !std::isfinite(number))
-    throw WrongUsage("--at-least: must be a number (got " + text + ")");
-  return number;
-}
-
 void clearance(ClearanceVerbOptions& options, ExitCode& exit_code) {
   if (!(options.clearance.tolerance <= 1))
     throw WrongUsage("--tolerance: must be a number from 1e-9 to 1");
-  const double at_least = options.at_least ? number_of(*options.at_least) : 0;
+  const auto at_least = options.at_least ? finite_number(*options.at_least) : 0;
+  if (!at_least) throw WrongUsage("--at-least: must be a number (got " + *options.at_least + ")");
   if (!options.steps.empty()) check_writable(options.steps);
   if (!options.sweep.empty()) {
     check_ending(options.sweep, ".json", "--sweep");
@@ -120,14 +114,14 @@ void clearance(ClearanceVerbOptions& options, ExitCode& exit_code) {
   const JointPath path(*model, rows);
   options.clearance.every_step = !options.steps.empty();
   const Clearance found = clearance_of(path, bodies, pairs, options.clearance);
-  if (!options.steps.empty()) write_text(options.steps, steps_text(found, path, bodies));
+  if (!options.steps.empty()) write_file(options.steps, steps_text(found, path, bodies));
   if (!options.sweep.empty()) {
     const Scene scene = swept_scene(*model, options.import, path, {}, mistakes);
     throw_if_any(mistakes);
-    write_text(options.sweep, scene_text(scene));
+    write_file(options.sweep, scene_text(scene));
   }
   std::cout << json_of(found, bodies).dump() << '\n';
-  if (options.at_least && !(found.closest.lower >= at_least)) {
+  if (options.at_least && !(found.closest.lower >= *at_least)) {
     exit_code = ExitCode::comparison_failed;
     std::cerr << "the clearance is not proven to be at least " << *options.at_least << "\n";
   }

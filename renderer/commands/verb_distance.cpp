@@ -16,13 +16,14 @@
 #include "renderer/arguments/scene_file.h"
 #include "renderer/arguments/shape_file.h"
 #include "renderer/arguments/tolerance_option.h"
+#include "renderer/base/csv.h"
 #include "renderer/clearance/near_bodies.h"
-#include "renderer/cli/csv_text.h"
 #include "renderer/cli/file_ending.h"
 #include "renderer/cli/options.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/import/import.h"
 #include "renderer/import/model/file_kind.h"
+#include "renderer/io/output_file.h"
 #include "renderer/json/number_json.h"
 #include "renderer/query/answer.h"
 
@@ -270,7 +271,7 @@ void distance(const DistanceVerbOptions& options) {
     throw WrongUsage("--joint and --keyframe are for a robot, which must be the first file (" +
                      printable(options.files[0], 100) + " is none)");
   const DistanceTable table = distance_table(options, kinds);
-  if (!options.output.empty()) write_text(options.output, table_as_csv(table));
+  if (!options.output.empty()) write_file(options.output, table_as_csv(table));
   if (options.json)
     std::cout << table_as_json(table, options.within).dump() << '\n';
   else if (options.output.empty())

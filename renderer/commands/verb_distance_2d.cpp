@@ -43,10 +43,9 @@ void distance_2d(const Distance2DVerbOptions& options) {
   throw_if_any(mistakes);
   options.files->read(meshes.meshes());
   DistanceResult<double, 2> result;
-  const std::string svg =
-      distance_panels_svg(*a, *b, subalgorithm_named(options.subalgorithm), result);
-  write_file(options.out,
-             std::span(reinterpret_cast<const unsigned char*>(svg.data()), svg.size()));
+  const std::string svg = distance_panels_svg(
+      *a, *b, kind_named(subalgorithm_descriptions, options.subalgorithm), result);
+  write_file(options.out, svg);
   std::cout << name_of(result.status) << ", distance " << result.distance << " after "
             << result.iterations << " iterations\n";
 }
@@ -64,7 +63,7 @@ void add_distance_2d(Parser& parser, ExitCode&) {
       .reads_file();
   verb.add_option("-o,--output", options->out, "SVG file to write").required().writes_file();
   verb.add_option("--subalgorithm", options->subalgorithm, "Distance subalgorithm of GJK")
-      .one_of(subalgorithm_names())
+      .one_of(names_in(subalgorithm_descriptions))
       .show_default();
   verb.on_call([options] { distance_2d(*options); });
 }

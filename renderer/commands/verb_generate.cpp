@@ -2,6 +2,7 @@
 // minkray generate: benchmark scenes of any size.
 #include <memory>
 
+#include "core/support/named_kind.h"
 #include "renderer/arguments/image_arguments.h"
 #include "renderer/cli/file_ending.h"
 #include "renderer/cli/options.h"
@@ -24,13 +25,9 @@ struct GenerateVerbOptions {
 void add_generate(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("generate");
   const auto options = std::make_shared<GenerateVerbOptions>();
-  std::vector<std::string> names;
-  std::string docs = "Kind of scene:";
-  for (const GeneratedKind& kind : generated_kinds) {
-    names.emplace_back(kind.name);
-    docs += "\n" + std::string(kind.name) + ": " + std::string(kind.doc);
-  }
-  verb.add_option("kind", options->kind, docs).required().one_of(names);
+  verb.add_option("kind", options->kind, "Kind of scene:" + lines_of_help(generated_kinds))
+      .required()
+      .one_of(names_in(generated_kinds));
   verb.add_option("-n,--count", options->count, "Number of shapes")
       .between(std::size_t{1}, most_instances)
       .show_default();

@@ -3,9 +3,9 @@
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <sstream>
 
 #include "core/parallel/parallel.h"
+#include "core/support/named_kind.h"
 #include "renderer/arguments/choices.h"
 #include "renderer/arguments/image_arguments.h"
 #include "renderer/base/errors.h"
@@ -25,20 +25,9 @@ struct HeatmapVerbOptions {
 };
 
 HeatChannel channel_of(const std::string& name) {
-  std::string names;
-  for (const HeatChannelDescription& description : heat_channels) {
-    if (description.name == name) return description.channel;
-    names += (names.empty() ? "" : ", ") + std::string(description.name);
-  }
-  throw WrongUsage("--channel: must be one of " + names + " (got " + name + ")");
-}
-
-std::vector<std::string> split(const std::string& text) {
-  std::vector<std::string> words;
-  std::istringstream stream(text);
-  for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
-  if (words.empty()) words.push_back(text);
-  return words;
+  if (const HeatChannelDescription* known = row_named(heat_channels, name)) return known->channel;
+  throw WrongUsage("--channel: must be one of " + listed(names_in(heat_channels)) + " (got " +
+                   name + ")");
 }
 
 constexpr const char* heatmap_suffix = "-heatmap.png";
@@ -47,7 +36,7 @@ void run(HeatmapVerbOptions& options) {
   options.image.choose_output(heatmap_suffix);
   const HeatChannel channel = channel_of(options.channel);
   const std::vector<std::string> solvers =
-      split(options.side_by_side.value_or(options.image.solver));
+      pieces_of(options.side_by_side.value_or(options.image.solver), ',');
   const char* const solver_option = options.side_by_side ? "--side-by-side" : "--solver";
   for (const std::string& solver : solvers) cast_options(solver, solver_option);
   check_outputs(options.image.outputs);
@@ -91,10 +80,7 @@ void add_heatmap(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("heatmap");
   const auto options = std::make_shared<HeatmapVerbOptions>();
   options->image.add_to(verb, heatmap_suffix);
-  std::string channels;
-  for (const HeatChannelDescription& description : heat_channels)
-    channels += "\n" + std::string(description.name) + ": " + std::string(description.doc);
-  verb.add_option("--channel", options->channel, "What to show:" + channels)
+  verb.add_option("--channel", options->channel, "What to show:" + lines_of_help(heat_channels))
       .takes("NAME")
       .show_default();
   const Option solver = add_solver_option(verb, options->image.solver);

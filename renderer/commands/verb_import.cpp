@@ -32,8 +32,7 @@ void import(const ImportVerbOptions& options) {
   const Imported imported = import_scene(options.file, import);
   options.files->read(imported.files);
   const std::string text = scene_text(imported.scene);
-  write_file(options.output,
-             std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
+  write_file(options.output, text);
   if (imported.model && !options.quiet) std::cerr << model_as_text(*imported.model);
 }
 

@@ -37,7 +37,7 @@ void add_inspect(Parser& parser, ExitCode& exit_code) {
       .show_default();
   add_solver_option(verb, image.solver);
   verb.add_option("--beside", options->beside, "Second solver, shown for comparison")
-      .one_of(solver_names())
+      .one_of(names_in(solver_descriptions))
       .show_default();
   verb.add_option("--pairs", options->pairs, "Number of object pairs whose distance the page shows")
       .between(std::size_t{0}, std::size_t{1000})

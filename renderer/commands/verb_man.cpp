@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 
+#include "core/files/text.h"
 #include "renderer/base/errors.h"
 #include "renderer/cli/man_page.h"
 #include "renderer/cli/options.h"
@@ -14,12 +15,10 @@ namespace {
 
 std::string page_of(const std::vector<VerbDescription>& all, const std::string& name) {
   if (name.empty()) return man_page(all);
-  std::string names;
-  for (const VerbDescription& verb : all) {
+  for (const VerbDescription& verb : all)
     if (verb.name == name) return man_page(verb);
-    names += (names.empty() ? "" : ", ") + verb.name;
-  }
-  throw WrongUsage("man: must be one of " + names + " (got " + printable(name, 40) + ")");
+  throw WrongUsage("man: must be one of " + listed(all, &VerbDescription::name) + " (got " +
+                   printable(name, 40) + ")");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <iostream>
 #include <memory>
 
+#include "core/support/named_kind.h"
 #include "renderer/arguments/image_arguments.h"
 #include "renderer/base/errors.h"
 #include "renderer/base/interrupt.h"
@@ -34,7 +35,7 @@ void run(const MergeVerbOptions& options) {
   write_picture(options.outputs,
                 {merged.image(), labels_of(merged.exr.texts), merged.exr.window,
                  resolution_of(merged.exr.texts), merged.exr},
-                {options.exposure, tone_map_named(options.tone_map)});
+                {options.exposure, kind_named(tone_maps, options.tone_map)});
   warn_of_counts(merged.counts);
   if (options.times)
     for (const ShareCost& cost : merged.costs)
@@ -53,7 +54,7 @@ void add_merge(Parser& parser, ExitCode&) {
   verb.add_option("--exposure", options->exposure, "Exposure of PNG output in stops")
       .show_default();
   verb.add_option("--tonemap", options->tone_map, "Tone mapping of PNG output")
-      .one_of(tone_map_names())
+      .one_of(names_in(tone_maps))
       .show_default();
   verb.add_flag("--allow-partial", options->allow_partial,
                 "Accept missing parts: missing tiles are black, missing samples are ignored");

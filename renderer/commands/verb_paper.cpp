@@ -23,8 +23,7 @@ struct PaperVerbOptions {
 
 void write_plot(const Plot& plot, const std::filesystem::path& folder) {
   const std::string svg = plot_svg(plot);
-  write_file((folder / plot.file).string(),
-             std::span(reinterpret_cast<const unsigned char*>(svg.data()), svg.size()));
+  write_file((folder / plot.file).string(), svg);
 }
 
 /// Prints text in lines of at most 96 characters, after a label.

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/parallel/parallel.h"
+#include "core/support/named_kind.h"
 #include "renderer/arguments/image_arguments.h"
 #include "renderer/arguments/import_arguments.h"
 #include "renderer/arguments/number_list.h"
@@ -39,8 +40,10 @@ struct ScanVerbOptions {
   bool has_halfs = false, quiet = false;
 };
 
-/// Names of the values of EchoOrder, in order.
-const std::vector<std::string> echo_orders = {"first", "strongest", "last"};
+constexpr NamedKind<EchoOrder> echo_orders[] = {
+    {EchoOrder::first, "first", "nearest first"},
+    {EchoOrder::strongest, "strongest", "greatest intensity first"},
+    {EchoOrder::last, "last", "furthest first"}};
 
 /// Returns the frame of a robot's link, or of an object.
 MovingFrame mount_of(Imported& imported, const std::string& name) {
@@ -88,8 +91,7 @@ void read_options(ScanVerbOptions& options) {
     options.scan.nearest = v[0];
     options.scan.farthest = v[1];
   }
-  for (std::size_t i = 0; i < echo_orders.size(); ++i)
-    if (echo_orders[i] == options.order) options.scan.order = static_cast<EchoOrder>(i);
+  options.scan.order = kind_named(echo_orders, options.order);
   if (!options.table.empty()) {
     check_ending(options.table, ".json", "--ids");
     check_writable(options.table);
@@ -152,8 +154,7 @@ void run(ScanVerbOptions& options) {
   }
   if (!options.table.empty()) {
     const std::string text = id_table(scene);
-    write_file(options.table,
-               std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
+    write_file(options.table, text);
   }
   warn_of_exhausted(result.counts.exhausted, result.counts.casts);
   warn_of_inside(result, options.scan.returns);
@@ -164,9 +165,6 @@ void run(ScanVerbOptions& options) {
 
 void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
   const std::string heading = "Rays and their origin";
-  std::string models;
-  for (const LidarModel& model : lidar_models())
-    models += (models.empty() ? "" : ", ") + std::string(model.name);
   verb.add_option(
           "--rays", options.rays,
           ".npy file of rays, one per row: origin (3 numbers), direction (3) and, optionally, "
@@ -178,7 +176,7 @@ void add_ray_options(const Verb& verb, ScanVerbOptions& options) {
                   "spinning:CHANNELSxSTEPS[:LOWEST,HIGHEST[:FROM,TO]]\n"
                   "(lowest and highest elevation, first and last azimuth, in degrees)\n"
                   "or a lidar model: " +
-                      models +
+                      listed(names_in(lidar_models())) +
                       "\nor a file: .csv (time, azimuth, zenith), .json (elevations), "
                       ".mat3x4f (one 3 x 4 pose matrix per ray, RobotecGPULidar)")
       .group(heading)
@@ -239,11 +237,10 @@ void add_measurement_options(const Verb& verb, ScanVerbOptions& options) {
       .between(1, 64)
       .show_default();
   verb.add_option("--echo", options.order,
-                  "Order of echoes; those beyond the maximum (--returns) are dropped:\n"
-                  "first: nearest first\nstrongest: greatest intensity first\n"
-                  "last: furthest first")
+                  "Order of echoes; those beyond the maximum (--returns) are dropped:" +
+                      lines_of_help(echo_orders))
       .group(heading)
-      .one_of(echo_orders)
+      .one_of(names_in(echo_orders))
       .show_default();
   verb.add_option("--divergence", options.scan.divergence,
                   "Full angle of the beam (rad); 0: a single ray\n"
@@ -274,10 +271,8 @@ void add_scan(Parser& parser, ExitCode&) {
   add_other_files(verb, options->import);
   add_ray_options(verb, *options);
   add_measurement_options(verb, *options);
-  std::string endings;
-  for (const ScanFormat& format : scan_formats())
-    endings += (endings.empty() ? "" : ", ") + std::string(format.ending);
-  verb.add_option("-o,--output", options->outputs, "File to write (" + endings + "); repeatable")
+  verb.add_option("-o,--output", options->outputs,
+                  "File to write (" + listed(scan_formats(), &ScanFormat::ending) + "); repeatable")
       .required()
       .one_value_each()
       .writes_file();

@@ -83,7 +83,7 @@ void trace(const TraceVerbOptions& options) {
   const Ray<double> through = Camera(scene.camera, size).ray(x + 0.5, y + 0.5);
   const Ray<double> ray{through.origin, through.direction};
   CastOptions cast;
-  cast.solver = solver_named(options.solver);
+  cast.solver = kind_named(solver_descriptions, options.solver);
   std::vector<PreparedShape> shapes;
   std::vector<std::size_t> objects;  // number of each shape's object
   const std::size_t count = instance_count(scene);
@@ -103,8 +103,7 @@ void trace(const TraceVerbOptions& options) {
 
   if (options.svg) {
     const std::string svg = trace_svg(result, shapes[chosen]);
-    write_file(*options.svg,
-               std::span(reinterpret_cast<const unsigned char*>(svg.data()), svg.size()));
+    write_file(*options.svg, svg);
   }
   const double t = double(result.result.t_base) + double(result.result.t_offset);
   const bool found = result.result.found();

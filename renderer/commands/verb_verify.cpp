@@ -12,13 +12,14 @@
 #include "renderer/arguments/import_arguments.h"
 #include "renderer/arguments/scene_file.h"
 #include "renderer/base/build.h"
+#include "renderer/base/csv.h"
 #include "renderer/base/errors.h"
-#include "renderer/cli/csv_text.h"
 #include "renderer/cli/exit_code.h"
 #include "renderer/cli/options.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/import/import.h"
 #include "renderer/io/image_file.h"
+#include "renderer/io/output_file.h"
 #include "renderer/jobs/verify_answer.h"
 #include "renderer/jobs/verify_inputs.h"
 #include "renderer/jobs/verify_picture.h"
@@ -108,7 +109,7 @@ void write_outputs(const VerifyOptions& options, const Judged& judged, const Ver
       try {
         const Provable proof =
             provable(verdict, plan.path, cell.cell.bodies, cell.cell.pairs, options.referee);
-        write_text(file, proof_text(proof, plan.path, inputs));
+        write_file(file, proof_text(proof, plan.path, inputs));
       } catch (const BadInput& error) {
         // Other verdicts already end with an exit code other than 0.
         if (verdict.status == MotionStatus::free) throw;
@@ -120,7 +121,7 @@ void write_outputs(const VerifyOptions& options, const Judged& judged, const Ver
       ShownMotion shown{verdict_json(name, verdict, plan, cell.cell), text, worst.time,
                         plan.trajectory.has_times};
       if (worst.exists) shown.view = worst_view(verdict, plan, cell.cell);
-      write_text(file, motion_page(cell.cell, plan.path, shown));
+      write_file(file, motion_page(cell.cell, plan.path, shown));
     } else {
       const Image image = worst_picture(verdict, plan, cell.cell, title_of(text), options.samples);
       write_file(file, encode_image(image, file));

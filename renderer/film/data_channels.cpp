@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <sstream>
 
+#include "core/support/named_kind.h"
 #include "renderer/base/errors.h"
 #include "renderer/film/heatmap.h"
 #include "renderer/film/pixel_loop.h"
@@ -139,10 +139,8 @@ Eigen::Vector2d motion_of(const Scene& scene, const Camera& camera, const Found&
 }
 
 std::size_t index_of(std::string_view name) {
-  const auto at =
-      std::find_if(data_channels.begin(), data_channels.end(),
-                   [&](const DataChannelDescription& channel) { return channel.name == name; });
-  return static_cast<std::size_t>(at - data_channels.begin());
+  const DataChannelDescription* const row = row_named(data_channels, name);
+  return row ? static_cast<std::size_t>(row - data_channels.data()) : data_channels.size();
 }
 
 }  // namespace
@@ -152,20 +150,15 @@ std::vector<std::string_view> parse_data_channels(const std::string& list) {
   const auto add = [&](std::string_view name) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
   };
-  std::string known;
-  for (const DataChannelDescription& channel : data_channels)
-    known += std::string(channel.name) + ", ";
-  known += "all";
-  std::istringstream stream(list + ",");
-  for (std::string name; std::getline(stream, name, ',');) {
+  for (const std::string& name : pieces_of(list, ',')) {
     const std::size_t i = index_of(name);
     if (name == "all") {
       for (const DataChannelDescription& channel : data_channels) add(channel.name);
     } else if (i < data_channels.size()) {
       add(data_channels[i].name);
     } else {
-      throw WrongUsage("--aov: must be some of " + known + ", between commas (got \"" + name +
-                       "\")");
+      throw WrongUsage("--aov: must be some of " + listed(names_in(data_channels)) +
+                       ", all, between commas (got \"" + name + "\")");
     }
   }
   return names;

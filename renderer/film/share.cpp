@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/film/share.h"
 
-#include <charconv>
-
+#include "core/files/text.h"
 #include "renderer/base/errors.h"
 
 namespace minkray {
@@ -32,13 +31,11 @@ Share parse_share(const std::string& text, const std::string& option) {
   const auto wrong = [&](const std::string& why) {
     return WrongUsage(option + ": " + why + " (got " + text + ")");
   };
+  const std::size_t slash = text.find('/');
   Share share;
-  const char* const end = text.data() + text.size();
-  const auto [slash, first_error] = std::from_chars(text.data(), end, share.index);
-  if (first_error != std::errc() || slash == end || *slash != '/')
+  if (slash == text.npos || !read_number(text.substr(0, slash), share.index) ||
+      !read_number(text.substr(slash + 1), share.count))
     throw wrong("must be i/n, such as 3/8");
-  const auto [rest, second_error] = std::from_chars(slash + 1, end, share.count);
-  if (second_error != std::errc() || rest != end) throw wrong("must be i/n, such as 3/8");
   if (share.count < 1 || share.count > most_shares)
     throw wrong("n must be from 1 to " + std::to_string(most_shares));
   if (share.index < 1 || share.index > share.count) throw wrong("i must be from 1 to n");

@@ -6,12 +6,13 @@
 #include <filesystem>
 #include <functional>
 
+#include "core/support/named_kind.h"
 #include "renderer/base/errors.h"
 #include "renderer/generate/packing.h"
 #include "renderer/generate/tumbling.h"
 #include "renderer/io/output_file.h"
 #include "renderer/json/json.h"
-#include "renderer/member_json/write_member.h"
+#include "renderer/member_json/member_codec.h"
 #include "renderer/scene_json/scene_json.h"
 
 namespace minkray {
@@ -58,11 +59,8 @@ Posed posed(std::string_view kind) {
     return {{{"type", "ellipsoid"}, {"radii", {0.75, 0.5, 0.35}}}, turned, 0.5498, packed_fill};
   if (kind == "capsules")
     return {{{"type", "capsule"}, {"radius", 0.1}, {"half_height", 1.5}}, turned, 0.0985, 0.05};
-  std::string known;
-  for (const GeneratedKind& one : generated_kinds)
-    known += (known.empty() ? "" : ", ") + std::string(one.name);
-  throw WrongUsage("generate: unknown kind \"" + std::string(kind) + "\" (known are " + known +
-                   ")");
+  throw WrongUsage("generate: unknown kind \"" + std::string(kind) + "\" (known are " +
+                   listed(names_in(generated_kinds)) + ")");
 }
 
 /// A cube of that half size holds the shapes.
@@ -117,10 +115,6 @@ Json frame(const GenerateOptions& options, double half_size) {
   return scene;
 }
 
-void write_text(const std::string& file, const std::string& text) {
-  write_file(file, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
-}
-
 /// Each hull a cell of the grid: 8 to 40 points of a stretched sphere.
 void generate_hulls(const GenerateOptions& options, const std::string& file) {
   if (options.count > most_generated_hulls)
@@ -150,14 +144,14 @@ void generate_hulls(const GenerateOptions& options, const std::string& file) {
                                 {"material", "matt"},
                                 {"transform", {{"translate", std::move(place)}}}});
   }
-  write_text(file, scene.dump() + "\n");
+  write_file(file, scene.dump() + "\n");
 }
 
 void generate_tumbling(const GenerateOptions& options, const std::string& file) {
   if (options.count > most_tumbling)
     throw WrongUsage("generate: at most " + std::to_string(most_tumbling) +
                      " tumbling bodies (got " + std::to_string(options.count) + ")");
-  write_text(file, tumbling_scene(options.count, options.seed).dump() + "\n");
+  write_file(file, tumbling_scene(options.count, options.seed).dump() + "\n");
 }
 
 }  // namespace
@@ -190,7 +184,7 @@ void generate_scene(const GenerateOptions& options, const std::string& file) {
     block["file"] = poses.filename().string();
   }
   scene["particles"] = Json::array({std::move(block)});
-  write_text(file, scene.dump(1) + "\n");
+  write_file(file, scene.dump(1) + "\n");
 }
 
 }  // namespace minkray

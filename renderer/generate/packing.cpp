@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "core/shape_cast/distance.h"
+#include "renderer/shape_cast/distance.h"
 
 namespace minkray {
 namespace {

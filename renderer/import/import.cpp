@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/files/regular_file.h"
+#include "core/files/text.h"
 #include "renderer/base/hash.h"
 #include "renderer/base/of_file.h"
 #include "renderer/import/mesh/geometry_common.h"
@@ -109,15 +110,11 @@ std::optional<Model> model_of(std::optional<XmlElement> root, XmlFiles& files,
 }  // namespace
 
 std::string foreign_formats() {
-  std::string all;
-  for (const ForeignFormat& format : formats) {
-    all += (all.empty() ? "" : ", ") + std::string(format.name);
-    std::string endings;
-    for (const std::string_view ending : format.endings)
-      if (!ending.empty()) endings += (endings.empty() ? "" : ", ") + std::string(ending);
-    all += " (" + endings + ")";
-  }
-  return all;
+  return listed(formats, [](const ForeignFormat& format) {
+    const auto given = std::ranges::find(format.endings, "");
+    return std::string(format.name) + " (" +
+           listed(std::ranges::subrange(format.endings.begin(), given)) + ")";
+  });
 }
 
 bool is_foreign(const std::filesystem::path& file) {

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Reads rows of joint values: CSV with names in its first line, or JSON.
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <set>
-#include <sstream>
 #include <unordered_map>
 
+#include "renderer/base/csv.h"
 #include "renderer/import/scene_of_model.h"
 #include "renderer/json/parse.h"
 #include "renderer/json/values.h"
@@ -20,20 +18,6 @@ constexpr std::size_t most_mistakes = 20;
 /// In each row each link, joint and shape of the model has its place. Ten minutes of a humanoid at
 /// a thousand rows per second have a fifth of these.
 constexpr std::size_t most_keys = 100'000'000;
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) {
-    const std::size_t begin = cell.find_first_not_of(" \t\r\""),
-                      end = cell.find_last_not_of(" \t\r\"");
-    cells.push_back(begin == cell.npos ? "" : cell.substr(begin, end - begin + 1));
-  }
-  return cells;
-}
-
-/// Editors on Windows begin UTF-8 with it.
-constexpr std::string_view byte_order_mark = "\xef\xbb\xbf";
 
 class RowReader {
  public:
@@ -49,11 +33,10 @@ class RowReader {
     most_ = std::max<std::size_t>(most_keys / size_, 1);
   }
 
-  std::vector<JointRow> read(std::string text) {
-    if (text.starts_with(byte_order_mark)) text.erase(0, byte_order_mark.size());
-    const std::size_t begin = text.find_first_not_of(" \t\r\n");
-    const bool is_json = begin != text.npos && (text[begin] == '[' || text[begin] == '{');
-    if (is_json)
+  std::vector<JointRow> read(std::string_view text) {
+    text = without_byte_order_mark(text);
+    const std::string_view content = without_blanks(text);
+    if (content.starts_with('[') || content.starts_with('{'))
       read_json(text);
     else
       read_csv(text);
@@ -75,11 +58,9 @@ class RowReader {
            std::to_string(size_) + " links, shapes or joints (got " + got + ")";
   }
 
-  void read_csv(const std::string& text) {
-    std::istringstream lines(text);
-    std::string line;
-    std::getline(lines, line);
-    const std::vector<std::string> names = cells_of(line);
+  void read_csv(std::string_view text) {
+    CsvLines lines(text, LastComma::ends_line);
+    const std::vector<std::string> names(lines.cells().begin(), lines.cells().end());
     // Joints of several numbers take several columns of their name.
     std::unordered_map<std::string, std::size_t> columns;
     for (const std::string& name : names) ++columns[name];
@@ -106,10 +87,9 @@ class RowReader {
       if (is_new && name != "time") pattern.values.push_back({name, {}});
       place_of_column.push_back(at->second);
     }
-    for (std::size_t number = 2; std::getline(lines, line) && !has_most_mistakes(); ++number) {
-      const std::string where = "line " + std::to_string(number) + ": ";
-      const std::vector<std::string> cells = cells_of(line);
-      if (cells.empty() || (cells.size() == 1 && cells[0].empty())) continue;
+    while (!has_most_mistakes() && lines.next()) {
+      const std::string where = "line " + std::to_string(lines.number()) + ": ";
+      const std::vector<std::string_view>& cells = lines.cells();
       if (rows_.size() == most_) return of_file_.add(where + complaint_of_count("one more"));
       if (cells.size() != names.size()) {
         of_file_.add(where + "must have " + std::to_string(names.size()) + " cells (got " +
@@ -119,17 +99,15 @@ class RowReader {
       JointRow row = pattern;
       row.time = time_of_next();
       for (std::size_t c = 0; c < cells.size(); ++c) {
-        double value = 0;
-        const char* const end = cells[c].data() + cells[c].size();
-        const auto [next, error] = std::from_chars(cells[c].data(), end, value);
-        if (error != std::errc() || next != end || !std::isfinite(value)) {
+        const auto value = finite_number(cells[c]);
+        if (!value) {
           of_file_.add(where + "must be finite numbers (got \"" + printable(cells[c], 40) + "\")");
           break;
         }
         if (names[c] == "time")
-          row.time = value;
+          row.time = *value;
         else
-          row.values[place_of_column[c]].second.push_back(value);
+          row.values[place_of_column[c]].second.push_back(*value);
       }
       if (!rows_.empty() && !(row.time > rows_.back().time))
         of_file_.add(where + "times must increase");
@@ -137,7 +115,7 @@ class RowReader {
     }
   }
 
-  void read_json(const std::string& text) {
+  void read_json(std::string_view text) {
     const auto json = parse_json(text, of_file_);
     if (!json) return;
     if (!json->is_array()) return add_row(*json, JsonPath());

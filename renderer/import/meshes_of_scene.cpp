@@ -26,8 +26,7 @@ struct ShownFile {
 MeshSplit split_of(const Json& object) {
   const Json* written = object.find("split");
   if (written && written->is_string())
-    for (const MeshSplitName& known : mesh_split_names)
-      if (known.name == written->text()) return known.split;
+    if (const auto* known = row_named(mesh_splits_of_files, written->text())) return known->kind;
   return MeshSplit::none;
 }
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <map>
 
+#include "core/files/text.h"
 #include "renderer/import/model/mesh_hull.h"
 #include "renderer/json/mistakes.h"
 
@@ -111,12 +112,9 @@ std::string model_as_text(const Model& model) {
   text += line("joints", counted(counts.joints));
   text += line("shapes", counted(counts.geoms) + " (" + std::to_string(counts.seen) + " visual, " +
                              std::to_string(counts.collide) + " collision)");
-  if (!model.keyframes.empty()) {
-    std::string names;
-    for (const std::string& name : keyframe_names(model))
-      names += (names.empty() ? "" : ", ") + printable(name, 40);
-    text += line("keyframes", names);
-  }
+  if (!model.keyframes.empty())
+    text += line("keyframes", listed(keyframe_names(model),
+                                     [](const std::string& name) { return printable(name, 40); }));
   text += meshes_as_text(model.meshes);
   for (const PassedOver& one : model.passed_over)
     text += line("skipped", std::to_string(one.count) + " " + one.what + ": " + one.why);

@@ -2,12 +2,12 @@
 #include "renderer/import/scene_of_model.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <map>
 
 #include "core/files/mesh_attributes.h"
+#include "core/files/text.h"
 #include "renderer/base/errors.h"
 #include "renderer/base/hash.h"
 #include "renderer/image/colour.h"
@@ -127,9 +127,8 @@ void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes) 
     if (const ModelKeyframe* found = find_keyframe(model, options.keyframe)) {
       set_values(model, found->values);
     } else {
-      std::string names;
-      for (const std::string& name : keyframe_names(model))
-        names += (names.empty() ? "" : ", ") + printable(name, 40);
+      const std::string names = listed(keyframe_names(model),
+                                       [](const std::string& name) { return printable(name, 40); });
       mistakes.add("--keyframe: no keyframe named " + printable(options.keyframe, 60) + "; " +
                    (names.empty() ? "the file has no keyframes" : "its keyframes are " + names));
     }
@@ -154,16 +153,8 @@ void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes) 
                    printable(joint->mimic->joint, 60) + ", so it cannot be set");
       continue;
     }
-    std::vector<double> values;
-    const char *at = text.data() + equals + 1, *const end = text.data() + text.size();
-    while (at != end) {
-      double value = 0;
-      const auto [next, error] = std::from_chars(at, end, value);
-      if (error != std::errc() || !std::isfinite(value) || (next != end && *next != ',')) break;
-      values.push_back(value);
-      at = next == end ? next : next + 1;
-    }
-    if (at != end || values.size() != width_of(joint->kind)) {
+    const auto values = numbers_between(text.substr(equals + 1), ',');
+    if (!values || values->size() != width_of(joint->kind)) {
       mistakes.add("--joint: " + printable(name, 60) + " takes " +
                    (width_of(joint->kind) == 1
                         ? "one finite number, radians if it is an angle"
@@ -172,7 +163,7 @@ void pose_model(Model& model, const ImportOptions& options, Mistakes& mistakes) 
                    " (got \"" + printable(text.substr(equals + 1), 60) + "\")");
       continue;
     }
-    joint->value = values;
+    joint->value = *values;
   }
   follow_mimics(model);
   JointsBeyond beyond;

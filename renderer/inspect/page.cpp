@@ -3,6 +3,7 @@
 
 #include <set>
 
+#include "core/support/named_kind.h"
 #include "renderer/film/heatmap.h"
 #include "renderer/inspect/base64.h"
 #include "renderer/inspect/page_files.h"
@@ -51,9 +52,8 @@ void put(std::string& page, std::string_view mark, std::string_view text) {
 Json solvers_json(const std::vector<InspectedSolver>& solvers) {
   Json list = Json::array();
   for (const InspectedSolver& solver : solvers)
-    for (const SolverDescription& description : solver_descriptions)
-      if (description.name == solver.name)
-        list.push_back({{"name", solver.name}, {"doc", std::string(description.doc)}});
+    if (const SolverDescription* known = row_named(solver_descriptions, solver.name))
+      list.push_back({{"name", solver.name}, {"doc", std::string(known->doc)}});
   return list;
 }
 

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/shape_cast/distance.h"
-#include "core/shape_cast/shape_cast.h"
 #include "renderer/inspect/replay.h"
 #include "renderer/inspect/shape_mesh.h"
 #include "renderer/json/number_json.h"
 #include "renderer/scene/scene_instances.h"
+#include "renderer/shape_cast/distance.h"
+#include "renderer/shape_cast/shape_cast.h"
 
 namespace minkray {
 namespace {

@@ -2,9 +2,10 @@
 #include "renderer/inspect/served_scene.h"
 
 #include <atomic>
-#include <charconv>
 #include <cmath>
 
+#include "core/files/text.h"
+#include "core/support/named_kind.h"
 #include "renderer/base/errors.h"
 #include "renderer/inspect/pair_replay.h"
 #include "renderer/inspect/pixel_answers.h"
@@ -30,24 +31,16 @@ WebReply left() {
 }
 
 double number_of(const std::string& text, const std::string& key) {
-  double number = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || rest != end || !std::isfinite(number))
-    throw BadInput(key + ": must be a number");
-  return number;
+  const auto number = finite_number(text);
+  if (!number) throw BadInput(key + ": must be a number");
+  return *number;
 }
 
 std::vector<double> numbers_of(const std::string& text, const std::string& key, std::size_t count) {
-  std::vector<double> numbers;
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', at), text.size());
-    numbers.push_back(number_of(text.substr(at, comma - at), key));
-    at = comma + 1;
-  }
-  if (numbers.size() != count)
+  const auto numbers = numbers_between(text, ',');
+  if (!numbers || numbers->size() != count)
     throw BadInput(key + ": must be " + std::to_string(count) + " numbers");
-  return numbers;
+  return *numbers;
 }
 
 /// The watch of a reply that is abandoned when the page turns to something else. All threads call
@@ -109,15 +102,12 @@ const std::vector<InspectedSolver>& ServedScene::solvers_for(const Asked& asked)
     if (kept.solver == solver && kept.tolerance == tolerance) return kept.solvers;
   std::vector<InspectedSolver> made;
   const auto make = [&](const std::string& name) {
-    for (const SolverDescription& description : solver_descriptions) {
-      if (description.name != name) continue;
-      CastOptions of_solver;
-      of_solver.solver = description.kind;
-      of_solver.eps_tol = tolerance;
-      made.push_back({name, SceneCasts(scene_, of_solver)});
-      return;
-    }
-    throw BadInput("solver: is none");
+    const SolverDescription* const known = row_named(solver_descriptions, name);
+    if (!known) throw BadInput("solver: is none");
+    CastOptions of_solver;
+    of_solver.solver = known->kind;
+    of_solver.eps_tol = tolerance;
+    made.push_back({name, SceneCasts(scene_, of_solver)});
   };
   make(solver);
   for (std::size_t k = 1; k < solvers_.size(); ++k) make(solvers_[k].name);

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "core/files/text.h"
 #include "renderer/image/colour.h"
 #include "renderer/io/exr.h"
 #include "renderer/io/png.h"
@@ -84,10 +85,7 @@ bool keeps_planes(const std::string& path) {
 }
 
 std::string image_extensions() {
-  std::string list;
-  for (const Format& format : formats)
-    list += (list.empty() ? "" : ", ") + std::string(format.extension);
-  return list;
+  return listed(formats, &Format::extension);
 }
 
 std::vector<unsigned char> encode_image(const Image& image, const std::string& path) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace minkray {
 
@@ -20,6 +21,10 @@ void check_writable(const std::string& path);
 /// ".NAME.PROCESS.RANDOM.tmp" in its folder. Concurrent writers of the same file have a temporary
 /// file each.
 void write_file(const std::string& path, std::span<const unsigned char> bytes);
+
+inline void write_file(const std::string& path, std::string_view text) {
+  write_file(path, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
+}
 
 /// Writes a regular file block by block: more than fits in memory. The file is there when `finish`
 /// has returned; without it, nothing is left.

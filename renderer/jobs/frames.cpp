@@ -2,9 +2,9 @@
 #include "renderer/jobs/frames.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "core/files/text.h"
 #include "renderer/base/errors.h"
 
 namespace minkray {
@@ -53,9 +53,8 @@ FrameRange parse_frames(const std::string& text) {
   if (dots == std::string::npos) bad_range(text, expected);
   const auto number = [&](std::size_t begin, std::size_t end) {
     int value = 0;
-    const char *const from = text.data() + begin, *const to = text.data() + end;
-    const auto [next, error] = std::from_chars(from, to, value);
-    if (error != std::errc() || next != to || from == to) bad_range(text, expected);
+    if (!read_number(std::string_view(text).substr(begin, end - begin), value))
+      bad_range(text, expected);
     if (value < 0 || value > most_frames) bad_range(text, "frames go from 0 to 1000000");
     return value;
   };

@@ -84,9 +84,7 @@ void inspect(const InspectArguments& arguments, ExitCode&) {
                            InterruptGuard::interrupted});
     }
     InterruptGuard::end_if_interrupted();
-    if (!arguments.serve)
-      write_file(output, std::span(reinterpret_cast<const unsigned char*>(page.html.data()),
-                                   page.html.size()));
+    if (!arguments.serve) write_file(output, page.html);
   }
   if (arguments.serve) return serve(scene, solvers, options, std::move(page.html), arguments.port);
   if (!arguments.image.quiet)

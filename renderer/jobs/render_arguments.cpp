@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/jobs/render_arguments.h"
 
+#include "core/support/named_kind.h"
 #include "renderer/arguments/choices.h"
 #include "renderer/base/errors.h"
 #include "renderer/cli/options.h"
@@ -30,13 +31,9 @@ void RenderArguments::add_to(const Verb& verb) {
   add_solver_option(verb, image.solver);
   verb.add_option("--exposure", exposure, "Exposure in stops; not applied to .pfm and .exr")
       .show_default();
-  std::string kinds = "Rendering method:";
-  std::vector<std::string> names;
-  for (const IntegratorDescription& kind : integrators) {
-    kinds += "\n" + std::string(kind.name) + ": " + std::string(kind.doc);
-    names.emplace_back(kind.name);
-  }
-  verb.add_option("--integrator", integrator, kinds).one_of(names).show_default();
+  verb.add_option("--integrator", integrator, "Rendering method:" + lines_of_help(integrators))
+      .one_of(names_in(integrators))
+      .show_default();
   verb.add_option(
           "--max-depth", max_depth,
           "Maximum bounces per path, with --integrator path; 0: only emissive objects are visible")
@@ -60,10 +57,9 @@ void RenderArguments::add_to(const Verb& verb) {
       .show_default();
   verb.add_flag("--denoise", denoise, "Denoise (best at few samples per pixel)");
   verb.add_flag("--half", has_halfs, "Write the colours of .exr as 16-bit floats");
-  std::string maps = "Tone mapping of PNG output:";
-  for (const ToneMapDescription& map : tone_maps)
-    maps += "\n" + std::string(map.name) + ": " + std::string(map.doc);
-  verb.add_option("--tonemap", tone_map, maps).one_of(tone_map_names()).show_default();
+  verb.add_option("--tonemap", tone_map, "Tone mapping of PNG output:" + lines_of_help(tone_maps))
+      .one_of(names_in(tone_maps))
+      .show_default();
   verb.add_option("--ray-group", ray_group,
                   "Number of camera rays traced together; does not change the picture")
       .between(1, most_in_ray_group)
@@ -78,14 +74,11 @@ void RenderArguments::add_to(const Verb& verb) {
           "speed: for a faster build")
       .one_of({"quality", "speed"})
       .group(research_group);
-  std::string channels;
-  for (const DataChannelDescription& channel : data_channels)
-    channels += "\n" + std::string(channel.name) + ": " + std::string(channel.doc);
   verb.add_option("--aov", aov,
                   "Extra EXR channels (AOVs), comma-separated, or all\n"
                   "The channels direct, indirect, variance and cryptomatte come from all samples; "
                   "the others come from one unfiltered ray per pixel\nChannels:" +
-                      channels)
+                      lines_of_help(data_channels))
       .takes("NAMES");
   verb.add_option(
           "--tile", tile,

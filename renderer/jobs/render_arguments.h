@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "core/support/named_kind.h"
 #include "renderer/arguments/image_arguments.h"
 #include "renderer/jobs/write_picture.h"
 #include "renderer/share/ranks.h"
@@ -47,7 +48,7 @@ struct RenderArguments {
   /// Throws WrongUsage if an output is required.
   void choose_output(const Ranks& ranks);
 
-  Display display() const { return {exposure, tone_map_named(tone_map), has_halfs}; }
+  Display display() const { return {exposure, kind_named(tone_maps, tone_map), has_halfs}; }
   bool is_share() const { return tile || sample_share; }
 };
 

@@ -5,6 +5,7 @@
 #include <ctime>
 #include <iostream>
 
+#include "core/files/text.h"
 #include "core/parallel/parallel.h"
 #include "renderer/base/interrupt.h"
 #include "renderer/film/cryptomatte.h"
@@ -34,10 +35,7 @@ bool is_among(std::string_view name, const std::vector<std::string_view>& names)
 
 Facts facts_of(const RenderJob& job) {
   Facts facts = picture_facts(job.scene, job.world, job.options);
-  std::string channels;
-  for (const std::string_view channel : job.channels)
-    channels += (channels.empty() ? "" : ",") + std::string(channel);
-  if (!channels.empty()) facts[fact::aov] = channels;
+  if (!job.channels.empty()) facts[fact::aov] = listed(job.channels, {}, ",");
   facts[fact::tile] = job.options.tile.text();
   facts[fact::sample_share] = job.options.sample_share.text();
   if (job.denoise) facts[fact::denoised] = "yes";

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "core/support/named_kind.h"
 #include "renderer/base/errors.h"
 #include "renderer/cli/command_line.h"
 #include "renderer/cli/words_meant.h"
@@ -31,11 +31,9 @@ void check_shares(const RenderOptions& options) {
 
 /// Throws WrongUsage for another program's name of a channel, with the name to use here.
 void check_channels(const std::string& list) {
-  std::vector<std::string> known;
-  for (const DataChannelDescription& channel : data_channels) known.emplace_back(channel.name);
-  std::istringstream names(list);
-  for (std::string name; std::getline(names, name, ',');) {
-    if (name == "all" || std::ranges::find(known, name) != known.end()) continue;
+  const std::vector<std::string> known = names_in(data_channels);
+  for (const std::string& name : pieces_of(list, ',')) {
+    if (name.empty() || name == "all" || std::ranges::find(known, name) != known.end()) continue;
     if (const std::string meant = value_meant(name, known); !meant.empty())
       throw WrongUsage("--aov: there is no channel " + printable(name, 40) + "; " + meant);
   }
@@ -131,9 +129,7 @@ void set_options(RenderJob& job, const RenderArguments& options) {
   job.options.integrator.clamp = options.clamp;
   job.options.noise = options.noise;
   job.options.light_channels = options.denoise || are_light_channels_wanted(job.channels);
-  for (const IntegratorDescription& kind : integrators)
-    if (kind.name == options.integrator)
-      job.options.integrator.kind = settled(kind.kind, job.scene);
+  job.options.integrator.kind = settled(kind_named(integrators, options.integrator), job.scene);
   check_shares(job.options);
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "renderer/cli/csv_text.h"
+#include "renderer/base/csv.h"
 #include "renderer/json/number_json.h"
 
 namespace minkray {

@@ -2,9 +2,9 @@
 #include "renderer/jobs/verify_inputs.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "core/files/text.h"
 #include "renderer/base/errors.h"
 #include "renderer/import/import.h"
 #include "renderer/json/parse.h"
@@ -36,12 +36,8 @@ std::map<std::string, double> inflated(const std::vector<std::string>& texts, co
   for (const std::string& text : texts) {
     const std::size_t equals = text.rfind('=');
     const std::string name = text.substr(0, equals);
-    double radius = -1;
-    if (equals != text.npos) {
-      const char *begin = text.data() + equals + 1, *const end = text.data() + text.size();
-      const auto [next, error] = std::from_chars(begin, end, radius);
-      if (error != std::errc() || next != end || !std::isfinite(radius)) radius = -1;
-    }
+    const double radius =
+        equals == text.npos ? -1 : finite_number(text.substr(equals + 1)).value_or(-1);
     const bool is_link =
         std::ranges::any_of(model.links, [&](const ModelLink& link) { return link.name == name; });
     if (!is_link || radius < 0)
@@ -58,8 +54,7 @@ std::vector<std::string> columns_of(const VerifyInputs& inputs, const RobotMeani
   if (inputs.group.empty()) return moving_joints(model);
   const auto group = meaning.groups.find(inputs.group);
   if (group != meaning.groups.end()) return group->second;
-  std::string names;
-  for (const auto& [name, joints] : meaning.groups) names += (names.empty() ? "" : ", ") + name;
+  const std::string names = listed(meaning.groups, [](const auto& group) { return group.first; });
   throw BadInput("--group: no group named \"" + printable(inputs.group, 60) + "\" (" +
                  (names.empty() ? "--srdf gives groups" : "there are " + printable(names, 200)) +
                  ")");

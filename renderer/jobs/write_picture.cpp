@@ -10,18 +10,6 @@
 
 namespace minkray {
 
-ToneMap tone_map_named(const std::string& name) {
-  for (const ToneMapDescription& description : tone_maps)
-    if (description.name == name) return description.kind;
-  return ToneMap::srgb;
-}
-
-std::vector<std::string> tone_map_names() {
-  std::vector<std::string> names;
-  for (const ToneMapDescription& description : tone_maps) names.emplace_back(description.name);
-  return names;
-}
-
 Image to_look_at(const FinishedPicture& finished, const Display& display) {
   const auto gain = static_cast<float>(std::exp2(display.exposure));
   Image picture = finished.image;

@@ -31,10 +31,6 @@ void write_picture(const std::vector<std::string>& outputs, const FinishedPictur
 /// Picture for formats without floats, with labels.
 Image to_look_at(const FinishedPicture& finished, const Display& display);
 
-/// Returns the tone map of this name in the list of tone maps.
-ToneMap tone_map_named(const std::string& name);
-std::vector<std::string> tone_map_names();
-
 /// Throws WrongUsage if the exposure is not a usable number of stops.
 void check_exposure(double exposure);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/json/values.h"
+#include "renderer/json/limits.h"
 
 #include <cmath>
 
@@ -33,43 +34,11 @@ std::string found(const Json& json) {
 }
 
 std::string_view constraint(Range range) {
-  switch (range) {
-    case Range::any:
-      return "";
-    case Range::positive:
-      return "> 0";
-    case Range::not_negative:
-      return ">= 0";
-    case Range::at_least_one:
-      return ">= 1";
-    case Range::zero_to_one:
-      return ">= 0 and <= 1";
-    case Range::zero_to_180:
-      return "> 0 and < 180";
-    case Range::brightness:
-      return ">= 0 and <= 1e15";
-  }
-  return "";
+  return limits_of(range).text;
 }
 
 bool in_range(double value, Range range) {
-  switch (range) {
-    case Range::any:
-      return true;
-    case Range::positive:
-      return value > 0;
-    case Range::not_negative:
-      return value >= 0;
-    case Range::at_least_one:
-      return value >= 1;
-    case Range::zero_to_one:
-      return value >= 0 && value <= 1;
-    case Range::zero_to_180:
-      return value > 0 && value < 180;
-    case Range::brightness:
-      return value >= 0 && value <= most_brightness;
-  }
-  return false;
+  return limits_of(range).allow(value);
 }
 
 std::optional<double> read_number(const Json& json, const JsonPath& path, Mistakes& mistakes,

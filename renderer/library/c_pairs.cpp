@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 // C interface: queries on a pair of shapes.
 #include <cmath>
-#include <memory>
 
-#include "core/mesh/mapped.h"
 #include "core/pair_distance/signed_distance.h"
 #include "core/pair_motion/impact.h"
 #include "core/parts/parts_contact.h"
 #include "core/parts/parts_distance.h"
 #include "core/parts/parts_impact.h"
+#include "renderer/library/handles/bodies_of_pairs.h"
 #include "renderer/library/handles/call.h"
 #include "renderer/library/handles/held_shape.h"
 #include "renderer/library/handles/pair_answers.h"
@@ -17,39 +16,7 @@
 namespace minkray {
 namespace {
 
-/// A shape and its pose, for queries on pairs: a map that keeps lengths is the pose, any other map
-/// is part of the shape.
-class PosedShape {
- public:
-  PosedShape(const HeldShape& held, const minkray_pose* pose, const char* argument) {
-    refuse_if_running(held.customs(), argument);
-    const bool is_rigid = read_pose(pose, argument, pose_);
-    if (held.mesh()) [[unlikely]] {
-      mesh_ = is_rigid ? held.mesh() : mapped(*held.mesh(), {pose_.linear, Vec3<double>::Zero()});
-      if (!is_rigid) pose_.linear.setIdentity();
-      return;
-    }
-    if (is_rigid) [[likely]] {
-      shape_ = &held.contact();
-      return;
-    }
-    own_ = std::make_unique<const ContactShape>(*held.shape(),
-                                                Affine<double>{pose_.linear, Vec3<double>::Zero()});
-    shape_ = own_.get();
-    pose_.linear.setIdentity();
-  }
-
-  PartsBody parts() const { return mesh_ ? PartsBody(*mesh_) : PartsBody(*shape_); }
-  const Affine<double>& pose() const { return pose_; }
-
- private:
-  std::unique_ptr<const ContactShape> own_;  ///< set if the map is part of it
-  const ContactShape* shape_ = nullptr;
-  std::shared_ptr<const TriangleMesh> mesh_;
-  Affine<double> pose_;
-};
-
-RigidMotion motion_of(const PosedShape& posed, const minkray_twist* twist, const char* argument) {
+RigidMotion motion_of(const PosedBody& posed, const minkray_twist* twist, const char* argument) {
   RigidMotion motion{posed.pose()};
   if (!twist) return motion;
   motion.velocity = vector_of(twist->velocity, argument, ".velocity");
@@ -70,7 +37,7 @@ int minkray_signed_distance(minkray_shape a, const minkray_pose* pose_a, minkray
   return call("minkray_signed_distance", [&] {
     const HeldShape &held_a = shape_of(a, "a"), &held_b = shape_of(b, "b");
     require(distance, "distance");
-    const PosedShape posed_a(held_a, pose_a, "pose_a"), posed_b(held_b, pose_b, "pose_b");
+    const PosedBody posed_a(held_a, pose_a, "pose_a"), posed_b(held_b, pose_b, "pose_b");
     const SignedDistance found = signed_distance(posed_a.parts(), posed_a.pose(), posed_b.parts(),
                                                  posed_b.pose(), distance_options(options));
     throw_if_lied(held_a.customs());
@@ -88,7 +55,7 @@ int minkray_time_of_impact(minkray_shape a, const minkray_pose* pose_a,
     require(impact, "impact");
     if (!std::isfinite(t_max) || !(t_max >= 0))
       wrong_use("t_max: must be finite and >= 0 (got " + std::to_string(t_max) + ")");
-    const PosedShape posed_a(held_a, pose_a, "pose_a"), posed_b(held_b, pose_b, "pose_b");
+    const PosedBody posed_a(held_a, pose_a, "pose_a"), posed_b(held_b, pose_b, "pose_b");
     const Impact found =
         first_impact(posed_a.parts(), motion_of(posed_a, twist_a, "twist_a"), posed_b.parts(),
                      motion_of(posed_b, twist_b, "twist_b"), t_max);

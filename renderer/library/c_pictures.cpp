@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "core/parallel/parallel.h"
+#include "core/support/named_kind.h"
 #include "renderer/base/errors.h"
 #include "renderer/film/data_channels.h"
 #include "renderer/film/features.h"
@@ -35,15 +36,14 @@ struct Channel {
 Channel channel_of(const char* name, const std::string& argument) {
   require(name, argument.c_str());
   if (name == light_name) return {};
-  std::string names(light_name);
-  for (const DataChannelDescription& known : data_channels) {
-    if (known.name == mattes_name) continue;
-    if (known.name == name)
-      return {known.name, static_cast<std::uint32_t>(std::max(known.planes.size(), std::size_t{1})),
-              has_integers(known.name)};
-    names += ", " + std::string(known.name);
-  }
-  wrong_use(argument + ": must be one of " + names + " (got \"" + printable(name, 60) + "\")");
+  const DataChannelDescription* const known = row_named(data_channels, name);
+  if (known && known->name != mattes_name)
+    return {known->name, static_cast<std::uint32_t>(std::max(known->planes.size(), std::size_t{1})),
+            has_integers(known->name)};
+  std::vector<std::string> names = names_in(data_channels);
+  std::erase(names, mattes_name);
+  wrong_use(argument + ": must be one of " + std::string(light_name) + ", " + listed(names) +
+            " (got \"" + printable(name, 60) + "\")");
 }
 
 /// The scene with the camera and the light of the options, or else those of its files, or of
@@ -114,15 +114,10 @@ RenderOptions render_options(const Scene& scene, const minkray_picture_options& 
   options.samples = static_cast<int>(checked(given.samples, 16, most_samples, "options.samples"));
   options.seed = given.seed;
   const std::string name(given.integrator ? given.integrator : integrators.front().name);
-  std::string names;
-  const IntegratorDescription* chosen = nullptr;
-  for (const IntegratorDescription& known : integrators) {
-    if (known.name == name) chosen = &known;
-    names += (names.empty() ? "" : ", ") + std::string(known.name);
-  }
+  const IntegratorDescription* const chosen = row_named(integrators, name);
   if (!chosen)
-    wrong_use("options.integrator: must be one of " + names + " (got \"" + printable(name, 60) +
-              "\")");
+    wrong_use("options.integrator: must be one of " + listed(names_in(integrators)) + " (got \"" +
+              printable(name, 60) + "\")");
   options.integrator.kind = settled(chosen->kind, scene);
   const auto often = [](std::int32_t number, int or_else, std::uint32_t most,
                         const char* argument) {

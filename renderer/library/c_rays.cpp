@@ -81,32 +81,22 @@ void find_occluded(const HeldScene& scene, const RaySource& rays, std::uint8_t* 
   throw_if_lied(scene.customs());
 }
 
-/// Casts at one shape, one way or the other.
+/// Casts at one body: cast(ray) returns the result, without the object's number.
 template <class Cast>
-void cast_at_one(const PreparedShape& shape, std::uint32_t object, const RaySource& rays,
-                 minkray_hit* hits, const minkray_options* options, Cast&& cast) {
+void cast_at_one(std::uint32_t object, const RaySource& rays, minkray_hit* hits,
+                 const minkray_options* options, const Cast& cast) {
   work_on_rays(rays.size(), options, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Ray<double> ray = rays[i];
-      WorldHit hit{no_instance, cast(shape, ray)};
+      WorldHit hit = cast(ray);
       if (hit.cast.found()) hit.instance = object;
-      hits[i] = plain_hit(ray, hit, hit.cast.status == Status::exhausted);
+      plain_hit(ray, hit, hit.cast.status == Status::exhausted, hits[i]);
     }
   });
 }
 
-/// Likewise, at one mesh.
-template <class Cast>
-void cast_at_mesh(std::uint32_t object, const RaySource& rays, minkray_hit* hits,
-                  const minkray_options* options, Cast&& cast) {
-  work_on_rays(rays.size(), options, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const Ray<double> ray = rays[i];
-      const MeshCast met = cast(ray);
-      const WorldHit hit{met.cast.found() ? object : no_instance, met.cast, met.part};
-      plain_hit(ray, hit, met.cast.status == Status::exhausted, hits[i]);
-    }
-  });
+WorldHit hit_of(const MeshCast& met) {
+  return {no_instance, met.cast, met.part};
 }
 
 }  // namespace
@@ -202,17 +192,17 @@ int minkray_scene_exit(minkray_scene scene, uint32_t object, const minkray_ray* 
     const RaySource source(rays, count);
     if (instances.is_mesh(object)) {
       const PosedMesh& mesh = instances.mesh_of(object);
-      cast_at_mesh(object, source, hits, options,
-                   [&](const Ray<double>& ray) { return cast_last_exit(mesh, ray, 0); });
+      cast_at_one(object, source, hits, options,
+                  [&](const Ray<double>& ray) { return hit_of(cast_last_exit(mesh, ray, 0)); });
       return;
     }
-    cast_at_one(instances.at(object), object, source, hits, options,
-                [](const PreparedShape& shape, const Ray<double>& ray) {
-                  CastResult<double> exit = cast_exit_within(shape, ray);
-                  if (exit.status == Status::hit)
-                    exit.offset_lo = std::max(exit.offset_lo, -exit.t_base);
-                  return exit;
-                });
+    const PreparedShape& shape = instances.at(object);
+    cast_at_one(object, source, hits, options, [&](const Ray<double>& ray) {
+      WorldHit exit{no_instance, cast_exit_within(shape, ray)};
+      if (exit.cast.status == Status::hit)
+        exit.cast.offset_lo = std::max(exit.cast.offset_lo, -exit.cast.t_base);
+      return exit;
+    });
     throw_if_lied(held->customs());
   });
 }
@@ -225,9 +215,9 @@ int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose, const mink
     if (count > 0) require(hits, "hits");
     if (held.mesh()) {
       const PosedMesh posed(0, held.mesh(), pose_of(pose, "pose"));
-      cast_at_mesh(0, RaySource(rays, count), hits, options, [&](const Ray<double>& ray) {
+      cast_at_one(0, RaySource(rays, count), hits, options, [&](const Ray<double>& ray) {
         PartCounts parts;
-        return cast_ray(posed, ray, ray.t_max, false, 0, parts);
+        return hit_of(cast_ray(posed, ray, ray.t_max, false, 0, parts));
       });
       return;
     }
@@ -241,9 +231,9 @@ int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose, const mink
       return;
     }
     const PreparedShape prepared(held.definition(), pose_of(pose, "pose"));
-    cast_at_one(
-        prepared, 0, RaySource(rays, count), hits, options,
-        [](const PreparedShape& one, const Ray<double>& ray) { return cast_ray(one, ray); });
+    cast_at_one(0, RaySource(rays, count), hits, options, [&](const Ray<double>& ray) {
+      return WorldHit{no_instance, cast_ray(prepared, ray)};
+    });
     throw_if_lied(held.customs());
   });
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/support/named_kind.h"
 #include "renderer/library/handles/call.h"
 #include "renderer/library/handles/held_scene.h"
 #include "renderer/library/handles/held_shape.h"
@@ -19,19 +20,16 @@ ImportOptions import_options(const minkray_file_options* given) {
   if (given->size < offsetof(minkray_file_options, meshes))
     wrong_use("options.size: must be sizeof(minkray_file_options)");
   const std::string geometry = given->geometry ? given->geometry : "visual";
-  if (geometry == "collision")
-    options.geometry = GeometryChoice::collision;
-  else if (geometry == "all")
-    options.geometry = GeometryChoice::all;
-  else if (geometry != "visual")
+  const auto* const known_geometry = row_named(geometry_choices, geometry);
+  if (!known_geometry)
     wrong_use("options.geometry: must be \"visual\", \"collision\" or \"all\" (got \"" +
               printable(geometry, 60) + "\")");
+  options.geometry = known_geometry->kind;
   const bool has_meshes = given->size >= sizeof(minkray_file_options) && given->meshes;
   const std::string meshes = has_meshes ? given->meshes : "";
-  if (meshes == "exact")
-    options.meshes = MeshChoice::exact;
-  else if (meshes == "hull")
-    options.meshes = MeshChoice::hull;
+  const auto* const known_meshes = row_named(mesh_choices, meshes);
+  if (known_meshes)
+    options.meshes = known_meshes->kind;
   else if (!meshes.empty())
     wrong_use("options.meshes: must be \"hull\" or \"exact\" (got \"" + printable(meshes, 60) +
               "\")");

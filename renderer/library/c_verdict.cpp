@@ -105,7 +105,7 @@ void write_proof(const std::string& file, const MotionVerdict& found, const Join
   if (found.status == MotionStatus::undecided) return;
   const std::string text = proof_text(provable(found, path, among.bodies, pairs, options), path,
                                       {std::string(version_and_commit())});
-  write_file(file, {reinterpret_cast<const unsigned char*>(text.data()), text.size()});
+  write_file(file, text);
 }
 
 void set_times(std::vector<JointRow>& rows, const double* times) {

@@ -5,7 +5,7 @@
 
 #include "renderer/image/colour.h"
 #include "renderer/json/values.h"
-#include "renderer/member_json/describe_member.h"
+#include "renderer/member_json/member_codec.h"
 
 namespace minkray {
 

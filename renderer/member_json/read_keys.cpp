@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/json/values.h"
-#include "renderer/member_json/read_member.h"
+#include "renderer/member_json/member_codec.h"
 #include "renderer/member_json/read_rotation.h"
 
 namespace minkray {

@@ -6,7 +6,7 @@
 
 #include "renderer/json/object_reader.h"
 #include "renderer/json/values.h"
-#include "renderer/member_json/read_member.h"
+#include "renderer/member_json/member_codec.h"
 #include "renderer/scene/member_keys.h"
 
 namespace minkray {
@@ -51,7 +51,7 @@ MemberKey<V> read_member_key(ObjectReader& object, const V& rest,
         parameter.optional = true;
         M& value = values.*(field.member);
         const M rested = value;
-        if (!read_member(object, parameter, value, files)) return;
+        if (!MemberCodec<M>::read(object, parameter, value, files)) return;
         const JsonPath at = object.path(parameter.name);
         key.given |= own_bit;
         if (!can_follow(rested) || !can_follow(value)) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/member_json/read_paint.h"
 
+#include "renderer/member_json/member_codec.h"
 #include "renderer/member_json/read_colour.h"
 #include "renderer/member_json/tagged_json.h"
-#include "renderer/member_json/write_member.h"
 
 namespace minkray {
 

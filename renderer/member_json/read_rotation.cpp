@@ -7,7 +7,7 @@
 
 #include "renderer/json/object_reader.h"
 #include "renderer/json/values.h"
-#include "renderer/member_json/describe_member.h"
+#include "renderer/member_json/member_codec.h"
 
 namespace minkray {
 namespace {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/member_json/shape_json.h"
 
-#include "renderer/member_json/read_member.h"
+#include "renderer/member_json/member_codec.h"
 #include "renderer/member_json/tagged_json.h"
-#include "renderer/member_json/write_member.h"
 
 namespace minkray {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "core/support/declared.h"
 #include "renderer/json/values.h"
-#include "renderer/member_json/read_member.h"
+#include "renderer/member_json/member_codec.h"
 #include "renderer/member_json/words_elsewhere.h"
 
 namespace minkray {

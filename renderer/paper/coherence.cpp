@@ -11,9 +11,9 @@
 #include "core/gjk/gjk_distance.h"
 #include "core/gjk/gjk_ray_cast.h"
 #include "core/pair_motion/impact.h"
-#include "core/shape_cast/shape_cast.h"
 #include "renderer/paper/claim.h"
 #include "renderer/paper/samples.h"
+#include "renderer/shape_cast/shape_cast.h"
 
 namespace minkray {
 namespace {

@@ -3,9 +3,9 @@
 #include <ctime>
 #include <limits>
 
-#include "core/shape_cast/distance.h"
 #include "renderer/paper/claim.h"
 #include "renderer/paper/samples.h"
+#include "renderer/shape_cast/distance.h"
 
 namespace minkray {
 namespace {

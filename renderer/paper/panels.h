@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/shape/shape.h"
-#include "core/shape_cast/distance.h"
+#include "renderer/shape_cast/distance.h"
 
 namespace minkray {
 

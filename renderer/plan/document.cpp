@@ -4,9 +4,8 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 
+#include "core/files/text.h"
 #include "renderer/json/parse.h"
 
 namespace minkray {
@@ -25,15 +24,10 @@ Json scalar(const YAML::Node& node) {
   if (text == "false" || text == "False" || text == "FALSE") return false;
   if (text.empty() || text == "~" || text == "null" || text == "Null" || text == "NULL")
     return nullptr;
-  const char *begin = text.data(), *const end = begin + text.size();
-  if (*begin == '+') ++begin;
-  double number = 0;
-  const auto [next, error] = std::from_chars(begin, end, number);
-  if (error != std::errc() || next != end || !std::isfinite(number)) return text;
   std::int64_t whole = 0;
-  const auto [after, no_integer] = std::from_chars(begin, end, whole);
-  if (no_integer == std::errc() && after == end) return whole;
-  return number;
+  if (read_number(bare_number(text), whole)) return whole;
+  if (const auto number = finite_number(bare_number(text))) return *number;
+  return text;
 }
 
 class YamlReader {

@@ -2,10 +2,10 @@
 // Tables of joint values, and the path of a robot along a trajectory.
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <numbers>
 
+#include "renderer/base/csv.h"
 #include "renderer/import/import.h"
 #include "renderer/json/parse.h"
 #include "renderer/plan/trajectory.h"
@@ -59,16 +59,11 @@ Trajectory read_npy_rows(const std::string& file, const Model& model,
 
 /// True if a table has a column of times, or its rows a key.
 bool gives_times(const std::string& file) {
-  std::ifstream stream(file);
-  if (!ends_with_any(file, {".csv", ".CSV"})) {
-    const std::string rows(std::istreambuf_iterator<char>(stream), {});
-    return rows.find("\"time\"") != rows.npos;
-  }
-  std::string names;
-  std::getline(stream, names);
-  std::erase_if(names, [](char c) { return c == '"' || c == ' ' || c == '\t' || c == '\r'; });
-  if (names.starts_with("\xef\xbb\xbf")) names.erase(0, 3);  // UTF-8's byte order mark
-  return ("," + names + ",").find(",time,") != names.npos;
+  Mistakes ignored(file);
+  const std::string text = read_text_file(file, ignored).value_or("");
+  if (!ends_with_any(file, {".csv", ".CSV"})) return text.find("\"time\"") != text.npos;
+  const CsvLines lines(text);
+  return std::ranges::find(lines.cells(), "time") != lines.cells().end();
 }
 
 /// True if a row has rates of that joint: they lead it its own way round.

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "core/files/text.h"
 #include "renderer/import/model/orientation.h"
 #include "renderer/json/values.h"
 #include "renderer/plan/message_fields.h"
@@ -23,9 +24,7 @@ std::array<double, N> read_keys(const Json& json, const std::array<std::string_v
     return values;
   }
   if (!json.is_object()) {
-    std::string names;
-    for (const std::string_view key : keys) names += (names.empty() ? "" : ", ") + std::string(key);
-    mistakes.add(path, "must be a list or an object of " + names + " (" + found(json) + ")");
+    mistakes.add(path, "must be a list or an object of " + listed(keys) + " (" + found(json) + ")");
     return values;
   }
   for (std::size_t i = 0; i < N; ++i)

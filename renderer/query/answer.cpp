@@ -5,11 +5,11 @@
 #include "core/pair_distance/manifold.h"
 #include "core/pair_distance/signed_distance.h"
 #include "core/pair_motion/impact.h"
-#include "core/shape_cast/distance.h"
-#include "core/shape_cast/rotating_cast.h"
-#include "core/shape_cast/shape_cast.h"
 #include "renderer/json/number_json.h"
 #include "renderer/query/trace.h"
+#include "renderer/shape_cast/distance.h"
+#include "renderer/shape_cast/rotating_cast.h"
+#include "renderer/shape_cast/shape_cast.h"
 
 namespace minkray {
 namespace {

@@ -2,8 +2,7 @@
 #include "renderer/scene_json/half_space_json.h"
 
 #include "renderer/json/object_reader.h"
-#include "renderer/member_json/read_member.h"
-#include "renderer/member_json/write_member.h"
+#include "renderer/member_json/member_codec.h"
 
 namespace minkray {
 

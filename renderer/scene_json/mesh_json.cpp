@@ -6,7 +6,7 @@
 
 #include "renderer/json/object_reader.h"
 #include "renderer/json/values.h"
-#include "renderer/member_json/write_member.h"
+#include "renderer/member_json/member_codec.h"
 #include "renderer/scene_json/mesh_attributes_json.h"
 
 namespace minkray {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/member_json/describe_member.h"
+#include "renderer/member_json/member_codec.h"
 #include "renderer/scene_json/schema.h"
 
 namespace minkray {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/files/regular_file.h"
+#include "core/files/text.h"
 #include "renderer/json/mistakes.h"
 
 namespace minkray {
@@ -111,42 +112,26 @@ void read_binary(RegularFile& file, std::optional<std::size_t> count, std::size_
   check_count(rows.count(), expected, most_rows);
 }
 
-bool is_blank(char c) {
-  return c == ' ' || c == '\t' || c == '\r';
-}
-
 /// The numbers of one line, with commas or blanks between them.
 void parse_line(std::string_view line, std::size_t number, const ParticleRows& rows,
                 std::vector<double>& row) {
   row.clear();
-  const char *at = line.data(), *const end = at + line.size();
-  const auto skip_blanks = [&] {
-    while (at < end && is_blank(*at)) ++at;
-  };
-  for (skip_blanks(); at < end;) {
-    const char* const begin = at;
+  for (line = without_blanks(line); !line.empty();) {
     if (row.size() == rows.row_numbers())
       fail("line", number,
            "must hold " + std::to_string(rows.row_numbers()) + " numbers (got more)");
+    const auto end = std::ranges::find_if(line, [](char c) { return is_blank(c) || c == ','; });
+    const std::string_view word(line.begin(), end);
     double value = 0;
-    if (*at == '+') ++at;
-    const auto [next, error] = std::from_chars(at, end, value);
-    const bool ends = next == end || is_blank(*next) || *next == ',';
-    if (error != std::errc() || !ends) {
-      const auto stop = std::find_if(begin, end, [](char c) { return is_blank(c) || c == ','; });
+    if (!read_number(bare_number(word), value))
       fail("line", number,
            std::string(rows.column_of(row.size())) + " must be a number that a double can hold " +
-               "(got \"" + printable(std::string_view(begin, std::size_t(stop - begin)), 40) +
-               "\"); lines of other text begin with #");
-    }
+               "(got \"" + printable(word, 40) + "\"); lines of other text begin with #");
     row.push_back(value);
-    at = next;
-    skip_blanks();
-    if (at < end && *at == ',') {
-      ++at;
-      skip_blanks();
-      if (at == end) fail("line", number, "must not end in a comma");
-    }
+    line = without_blanks(line.substr(word.size()));
+    if (!line.starts_with(',')) continue;
+    line = without_blanks(line.substr(1));
+    if (line.empty()) fail("line", number, "must not end in a comma");
   }
   if (row.size() != rows.row_numbers())
     fail("line", number,
@@ -163,11 +148,9 @@ void read_csv(RegularFile& file, std::optional<std::size_t> count, std::size_t m
   std::size_t line_number = 0, kept = 0;  // kept: bytes of a line that is not complete
   const auto take = [&](std::string_view line) {
     ++line_number;
-    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-    if (line_number == 1 && line.starts_with(byte_order_mark))
-      line.remove_prefix(byte_order_mark.size());
-    while (!line.empty() && is_blank(line.front())) line.remove_prefix(1);
-    if (line.empty() || line == "\r" || line.front() == '#') return;
+    if (line_number == 1) line = without_byte_order_mark(line);
+    line = without_blanks(line);
+    if (line.empty() || line.front() == '#') return;
     if (rows.count() == most_rows)
       throw std::runtime_error("must hold at most " + std::to_string(most_rows) + " rows");
     parse_line(line, line_number, rows, row);

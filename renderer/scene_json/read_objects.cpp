@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "renderer/json/values.h"
-#include "renderer/member_json/read_member.h"
+#include "renderer/member_json/member_codec.h"
 #include "renderer/member_json/shape_json.h"
 #include "renderer/scene_json/half_space_json.h"
 #include "renderer/scene_json/height_field_json.h"

@@ -5,6 +5,7 @@
 #include <exception>
 #include <limits>
 
+#include "core/support/named_kind.h"
 #include "renderer/json/object_reader.h"
 #include "renderer/json/values.h"
 #include "renderer/member_json/shape_json.h"
@@ -15,12 +16,6 @@ namespace minkray {
 namespace {
 
 constexpr std::size_t most_materials = std::numeric_limits<std::uint16_t>::max();
-
-std::vector<std::string> column_names() {
-  std::vector<std::string> names;
-  for (const auto& description : particle_columns) names.emplace_back(description.name);
-  return names;
-}
 
 bool contains(const std::vector<ParticleColumn>& columns, ParticleColumn column) {
   return std::find(columns.begin(), columns.end(), column) != columns.end();
@@ -40,12 +35,10 @@ std::optional<std::vector<ParticleColumn>> read_columns(ObjectReader& block) {
   for (std::size_t i = 0; i < json->size(); ++i) {
     const auto name = read_string((*json)[i], path / i, mistakes);
     if (!name) return std::nullopt;
-    const auto known =
-        std::find_if(std::begin(particle_columns), std::end(particle_columns),
-                     [&](const auto& description) { return description.name == *name; });
-    if (known == std::end(particle_columns)) {
+    const ParticleColumnDescription* known = row_named(particle_columns, *name);
+    if (!known) {
       mistakes.add(path / i, "must be the name of a column (" + found((*json)[i]) + "; " +
-                                 suggestion(*name, column_names()) + ")");
+                                 suggestion(*name, names_in(particle_columns)) + ")");
       return std::nullopt;
     }
     if (contains(columns, known->column)) {

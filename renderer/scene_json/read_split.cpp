@@ -11,15 +11,10 @@ std::optional<std::vector<Shape>> read_split_hulls(ObjectReader& object, const J
   const JsonPath split_path = object.path("split"), shape_path = object.path("shape");
   const auto written = read_string(split, split_path, mistakes);
   if (!written) return std::nullopt;
-  std::optional<MeshSplit> how;
-  std::vector<std::string> names;
-  for (const MeshSplitName& known : mesh_split_names) {
-    names.emplace_back(known.name);
-    if (known.name == *written) how = known.split;
-  }
+  const NamedKind<MeshSplit>* const how = row_named(mesh_splits_of_files, *written);
   if (!how) {
     mistakes.add(split_path, "must be groups or components (" + found(split) + "; " +
-                                 suggestion(*written, names) + ")");
+                                 suggestion(*written, names_in(mesh_splits_of_files)) + ")");
     return std::nullopt;
   }
   const Json* type = shape.is_object() ? shape.find("type") : nullptr;
@@ -30,7 +25,7 @@ std::optional<std::vector<Shape>> read_split_hulls(ObjectReader& object, const J
   }
   const auto name = read_string(*file, shape_path / "file", mistakes);
   const auto parts =
-      name ? meshes.read_parts(*name, *how, shape_path / "file", mistakes) : std::nullopt;
+      name ? meshes.read_parts(*name, how->kind, shape_path / "file", mistakes) : std::nullopt;
   if (!parts) return std::nullopt;
   std::vector<Shape> hulls;
   for (const PointCloud& part : *parts) hulls.emplace_back(Hull{part});

@@ -4,22 +4,22 @@
 
 #include <array>
 #include <optional>
-#include <string_view>
+#include <span>
 #include <vector>
 
 #include "core/shape/shape.h"
+#include "core/support/named_kind.h"
 #include "renderer/json/object_reader.h"
 #include "renderer/member_json/mesh_files.h"
 
 namespace minkray {
 
-/// Values of "split" and their meaning.
-struct MeshSplitName {
-  std::string_view name;
-  MeshSplit split;
-};
-inline constexpr std::array mesh_split_names = {MeshSplitName{"groups", MeshSplit::groups},
-                                                MeshSplitName{"components", MeshSplit::components}};
+/// Values of --split; those of "split" are all but the first.
+inline constexpr std::array mesh_splits = {
+    NamedKind<MeshSplit>{MeshSplit::none, "none", "no split (default)"},
+    NamedKind<MeshSplit>{MeshSplit::groups, "groups", "one hull per named part of the file"},
+    NamedKind<MeshSplit>{MeshSplit::components, "components", "one hull per connected part"}};
+inline constexpr auto mesh_splits_of_files = std::span(mesh_splits).subspan<1>();
 
 /// One hull a part of the mesh file that the object's shape names. Nothing, and mistakes, if
 /// anything is wrong.

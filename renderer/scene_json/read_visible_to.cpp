@@ -3,18 +3,13 @@
 
 #include <algorithm>
 
+#include "core/support/named_kind.h"
 #include "renderer/json/values.h"
 
 namespace minkray {
 namespace {
 
 constexpr std::string_view key = "visible_to";
-
-std::vector<std::string> known_names() {
-  std::vector<std::string> names;
-  for (const RayKindsName& known : ray_kinds_names) names.emplace_back(known.name);
-  return names;
-}
 
 bool may_shine(const Scene& scene, const MaterialKind& material) {
   const auto* mix = std::get_if<MixMaterial>(&material);
@@ -39,11 +34,10 @@ RayKinds read_visible_to(ObjectReader& object) {
   for (std::size_t i = 0; i < json->size(); ++i) {
     const auto name = read_string((*json)[i], path / i, mistakes);
     if (!name) continue;
-    const auto known = std::find_if(ray_kinds_names.begin(), ray_kinds_names.end(),
-                                    [&](const RayKindsName& one) { return one.name == *name; });
-    if (known == ray_kinds_names.end()) {
+    const RayKindsName* known = row_named(ray_kinds_names, *name);
+    if (!known) {
       mistakes.add(path / i, "must be the name of rays (" + found((*json)[i]) + "; " +
-                                 suggestion(*name, known_names()) + ")");
+                                 suggestion(*name, names_in(ray_kinds_names)) + ")");
     } else if (kinds & known->kinds) {
       mistakes.add(path / i, "duplicate (" + found((*json)[i]) + " again)");
     } else {
@@ -74,14 +68,13 @@ void write_visible_to(Json& object, RayKinds visible_to) {
 }
 
 Json visible_to_schema() {
-  Json names = Json::array();
   std::string doc = "the rays that hit it; others pass through; by default all";
-  for (const RayKindsName& known : ray_kinds_names) {
-    names.push_back(std::string(known.name));
+  for (const RayKindsName& known : ray_kinds_names)
     doc += "; " + std::string(known.name) + ": " + std::string(known.doc);
-  }
-  return {
-      {"type", "array"}, {"description", doc}, {"items", {{"enum", names}}}, {"uniqueItems", true}};
+  return {{"type", "array"},
+          {"description", doc},
+          {"items", {{"enum", names_in(ray_kinds_names)}}},
+          {"uniqueItems", true}};
 }
 
 }  // namespace minkray

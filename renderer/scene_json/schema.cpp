@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/scene_json/schema.h"
 
-#include "renderer/member_json/describe_member.h"
+#include "core/support/named_kind.h"
+#include "renderer/member_json/member_codec.h"
 #include "renderer/member_json/read_colour.h"
 #include "renderer/member_json/read_rotation.h"
 #include "renderer/member_json/shape_json.h"
@@ -86,8 +87,7 @@ Json keys_schema(bool has_intensity) {
     using M = typename std::remove_cvref_t<decltype(field)>::Member;
     if constexpr (can_be_keyed<M>) {
       if (keeps_still(field.name)) return;
-      const Parameter parameter = parameter_of(field);
-      const MemberDescription member = describe(parameter, Member<M>());
+      const MemberDescription member = MemberCodec<M>::describe(parameter_of(field));
       for (const Json::Member& property : member.properties.members())
         key["properties"][property.key] = property.value;
     }
@@ -129,9 +129,6 @@ Json scene_schema() {
       described_object(object_schema(Background::doc), [](Json& o) { add_members<Background>(o); });
 
   Json object = object_schema("An object of the scene.");
-  Json split_names = Json::array();
-  for (const MeshSplitName& split : mesh_split_names)
-    split_names.push_back(std::string(split.name));
   object["properties"] = {
       {"name", name},
       {"shape",
@@ -149,7 +146,7 @@ Json scene_schema() {
        {{"description",
          "one object per part of the shape's mesh file: its named parts, or its connected "
          "components"},
-        {"enum", split_names}}},
+        {"enum", names_in(mesh_splits_of_files)}}},
       {"keys",
        {{"type", "array"},
         {"description", "poses at increasing times"},
@@ -172,12 +169,9 @@ Json scene_schema() {
   key["properties"]["rotate"]["description"] = "relative to its transform";
   key["required"] = {"time"};
 
-  Json column_names = Json::array();
   std::string column_docs = "the meaning of each row's numbers, in order";
-  for (const ParticleColumnDescription& column : particle_columns) {
-    column_names.push_back(std::string(column.name));
+  for (const ParticleColumnDescription& column : particle_columns)
     column_docs += "; " + std::string(column.name) + ": " + std::string(column.doc);
-  }
   Json particles = object_schema("One shape with many poses.");
   particles["properties"] = {
       {"name", name},
@@ -185,7 +179,7 @@ Json scene_schema() {
       {"columns",
        {{"type", "array"},
         {"description", column_docs},
-        {"items", {{"enum", column_names}}},
+        {"items", {{"enum", names_in(particle_columns)}}},
         {"contains", {{"const", "position"}}},
         {"uniqueItems", true}}},
       {"material", name},
@@ -293,7 +287,7 @@ Json scene_schema() {
   definitions["particles"] = std::move(particles);
   definitions["transform"] =
       described_object(object_schema("Pose of an object."), [](Json& transform) {
-        const auto pose = describe(Parameter(), Member<AffineMap>());
+        const auto pose = MemberCodec<AffineMap>::describe(Parameter());
         transform["properties"] = pose.properties;
         transform["allOf"] = pose.allowed;
       });

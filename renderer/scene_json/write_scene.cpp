@@ -3,8 +3,8 @@
 
 #include "renderer/base/errors.h"
 #include "renderer/json/json.h"
+#include "renderer/member_json/member_codec.h"
 #include "renderer/member_json/shape_json.h"
-#include "renderer/member_json/write_member.h"
 #include "renderer/scene_json/half_space_json.h"
 #include "renderer/scene_json/mesh_json.h"
 #include "renderer/scene_json/read_visible_to.h"
@@ -22,7 +22,7 @@ Json tagged(const S& described) {
 
 Json pose_json(const Affine<double>& pose) {
   Json json;
-  write_member(json, "matrix", AffineMap(pose));
+  MemberCodec<AffineMap>::write(json, "matrix", AffineMap(pose));
   return json;
 }
 
@@ -41,7 +41,8 @@ Json keys_json(const MemberKeys<V>& keys) {
     visit_struct(key.values, [&]<class S>(const S& values) {
       std::uint64_t bit = 1;
       for_each_field<S>([&](const auto& field) {
-        if (key.given & bit) write_member(written, field.name, values.*(field.member));
+        using M = typename std::remove_cvref_t<decltype(field)>::Member;
+        if (key.given & bit) MemberCodec<M>::write(written, field.name, values.*(field.member));
         bit <<= 1;
       });
     });

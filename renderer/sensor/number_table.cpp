@@ -2,9 +2,8 @@
 #include "renderer/sensor/number_table.h"
 
 #include <cctype>
-#include <charconv>
-#include <cmath>
 
+#include "renderer/base/csv.h"
 #include "renderer/json/parse.h"
 
 namespace minkray {
@@ -12,18 +11,6 @@ namespace {
 
 /// Limit of mistakes: files with more repeat the same one.
 constexpr std::size_t most_mistakes = 20;
-
-std::string_view without_blanks(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r");
-  if (begin == text.npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
-
-std::string_view next_piece(std::string_view& text, char separator) {
-  const std::string_view piece = text.substr(0, text.find(separator));
-  text.remove_prefix(std::min(piece.size() + 1, text.size()));
-  return piece;
-}
 
 std::string letters_of(std::string_view title) {
   std::string letters;
@@ -34,21 +21,6 @@ std::string letters_of(std::string_view title) {
 }
 
 }  // namespace
-
-std::optional<std::vector<double>> numbers_between(std::string_view text, char separator) {
-  std::vector<double> numbers;
-  for (std::string_view rest = text;;) {
-    const bool is_last = rest.find(separator) == rest.npos;
-    std::string_view piece = without_blanks(next_piece(rest, separator));
-    if (piece.starts_with('+') && !piece.starts_with("+-")) piece.remove_prefix(1);
-    double number = 0;
-    const char* const end = piece.data() + piece.size();
-    const auto [next, error] = std::from_chars(piece.data(), end, number);
-    if (error != std::errc() || next != end || !std::isfinite(number)) return std::nullopt;
-    numbers.push_back(number);
-    if (is_last) return numbers;
-  }
-}
 
 std::optional<std::size_t> NumberTable::column(std::string_view name) const {
   const auto among = [&](auto&& fits) {
@@ -74,24 +46,18 @@ NumberTable read_number_table(const std::string& file, Mistakes& mistakes) {
   table.file = file;
   const auto text = read_text_file(file, mistakes);
   if (!text) return table;
-  std::string_view rest = *text;
-  std::string_view first = next_piece(rest, '\n');
-  while (!first.empty()) {
-    const std::string_view title = next_piece(first, ',');
+  CsvLines lines(*text);
+  for (const std::string_view title : lines.cells())
     table.titles.push_back(
         {letters_of(title.substr(0, title.find_first_of("/([{"))), letters_of(title)});
-  }
-  for (std::size_t number = 2; !rest.empty(); ++number) {
-    const std::string_view line = without_blanks(next_piece(rest, '\n'));
-    if (line.empty()) continue;
-    const auto values = numbers_between(line, ',');
-    if (values && values->size() == table.width()) {
-      table.values.insert(table.values.end(), values->begin(), values->end());
+  while (mistakes.messages().size() < most_mistakes && lines.next()) {
+    const std::size_t begin = table.values.size();
+    for (const std::string_view cell : lines.cells())
+      if (const auto number = finite_number(bare_number(cell))) table.values.push_back(*number);
+    if (lines.cells().size() == table.width() && table.values.size() == begin + table.width())
       continue;
-    }
-    mistakes.add("line " + std::to_string(number) + ": must be " + std::to_string(table.width()) +
-                 " numbers between commas");
-    if (mistakes.messages().size() >= most_mistakes) break;
+    mistakes.add("line " + std::to_string(lines.number()) + ": must be " +
+                 std::to_string(table.width()) + " numbers between commas");
   }
   return table;
 }

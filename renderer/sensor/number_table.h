@@ -34,8 +34,4 @@ struct NumberTable {
 /// are skipped. Mistakes have their line.
 NumberTable read_number_table(const std::string& file, Mistakes& mistakes);
 
-/// Reads finite numbers between separators; returns nothing if any part of the text is something
-/// else.
-std::optional<std::vector<double>> numbers_between(std::string_view text, char separator);
-
 }  // namespace minkray

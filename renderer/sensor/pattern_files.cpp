@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/files/regular_file.h"
+#include "core/files/text.h"
 #include "renderer/base/errors.h"
 #include "renderer/base/of_file.h"
 #include "renderer/json/object_reader.h"
@@ -79,7 +80,7 @@ const Json* of_ouster(const Json& json, std::string_view part, std::string_view 
 int ouster_steps(const Json& json, Mistakes& mistakes) {
   const Json* mode = of_ouster(json, "config_params", "lidar_mode");
   const std::string text = mode && mode->is_string() ? mode->text() : "";
-  const auto numbers = numbers_between(text, 'x');
+  const auto numbers = numbers_between(text, 'x', bare_number);
   if (numbers && numbers->size() == 2 && (*numbers)[0] >= 1 && (*numbers)[0] <= most_turn_steps)
     return static_cast<int>((*numbers)[0]);
   mistakes.add(JsonPath() / "lidar_mode",

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "core/files/text.h"
 #include "core/parallel/parallel.h"
 #include "renderer/base/errors.h"
 #include "renderer/io/exr.h"
@@ -185,12 +186,10 @@ std::span<const ScanFormat> scan_formats() {
 
 const ScanFormat& scan_format_of(const std::string& file) {
   const std::string ending = std::filesystem::path(file).extension().string();
-  std::string known;
-  for (const ScanFormat& format : formats) {
+  for (const ScanFormat& format : formats)
     if (format.ending == ending) return format;
-    known += (known.empty() ? "" : ", ") + std::string(format.ending);
-  }
-  throw WrongUsage("--output: must end in one of " + known + " (got " + file + ")");
+  throw WrongUsage("--output: must end in one of " + listed(formats, &ScanFormat::ending) +
+                   " (got " + file + ")");
 }
 
 std::string id_table(const Scene& scene) {

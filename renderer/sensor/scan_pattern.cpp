@@ -4,24 +4,14 @@
 #include <cmath>
 #include <filesystem>
 
+#include "core/support/named_kind.h"
 #include "renderer/base/errors.h"
 #include "renderer/json/object_reader.h"
-#include "renderer/sensor/number_table.h"
 #include "renderer/sensor/pattern_files.h"
 #include "renderer/sensor/turning_rays.h"
 
 namespace minkray {
 namespace {
-
-std::vector<std::string_view> parts_of(std::string_view text) {
-  std::vector<std::string_view> parts;
-  for (std::size_t at = 0; at != text.npos;) {
-    const std::size_t colon = text.find(':', at);
-    parts.push_back(text.substr(at, colon == text.npos ? colon : colon - at));
-    at = colon == text.npos ? colon : colon + 1;
-  }
-  return parts;
-}
 
 bool is_count(double number, double most) {
   return number >= 1 && number <= most && number == std::floor(number);
@@ -29,7 +19,7 @@ bool is_count(double number, double most) {
 
 /// Reads two angles, each from -most to most; returns nothing for anything else.
 std::optional<std::pair<double, double>> two_angles(std::string_view text, double most) {
-  const auto angles = numbers_between(text, ',');
+  const auto angles = numbers_between(text, ',', bare_number);
   if (!angles || angles->size() != 2) return std::nullopt;
   for (const double angle : *angles)
     if (!(std::abs(angle) <= most)) return std::nullopt;
@@ -42,8 +32,8 @@ void check_rays(double rays) {
 }
 
 SensorRays spinning(const std::string& pattern, double seconds) {
-  const std::vector<std::string_view> parts = parts_of(pattern);
-  const auto counts = parts.size() > 1 ? numbers_between(parts[1], 'x') : std::nullopt;
+  const std::vector<std::string> parts = pieces_of(pattern, ':');
+  const auto counts = parts.size() > 1 ? numbers_between(parts[1], 'x', bare_number) : std::nullopt;
   std::pair<double, double> elevations(-15, 15);
   std::optional<AzimuthRange> range;
   bool is_good = parts.size() <= 4 && counts && counts->size() == 2 &&
@@ -74,18 +64,18 @@ SensorRays spinning(const std::string& pattern, double seconds) {
   return turning_rays(channels, width, seconds, range ? &*range : nullptr);
 }
 
-SensorRays of_model(const LidarModel& model, const std::vector<std::string_view>& parts,
-                    double seconds, double start) {
+SensorRays of_model(const LidarModel& model, const std::vector<std::string>& parts, double seconds,
+                    double start) {
   const bool spins = !model.channels.empty();
   const double most = spins ? most_turn_steps : double(most_sensor_rays);
   double count = model.steps;
   if (!spins) count = std::max(1.0, std::round(2 * model.steps * 5 * seconds));
   if (parts.size() > 1) {
-    const auto numbers = numbers_between(parts[1], ',');
+    const auto numbers = numbers_between(parts[1], ',', bare_number);
     if (parts.size() > 2 || !numbers || numbers->size() != 1 || !is_count((*numbers)[0], most))
       throw WrongUsage("--pattern: must be " + std::string(model.name) + " or " +
                        std::string(model.name) + (spins ? ":STEPS of a turn" : ":RAYS") +
-                       " (got :" + printable(std::string(parts[1]), 80) + ")");
+                       " (got :" + printable(parts[1], 80) + ")");
     count = (*numbers)[0];
   }
   check_rays(spins ? count * double(model.channels.size()) : count);
@@ -96,18 +86,16 @@ SensorRays of_model(const LidarModel& model, const std::vector<std::string_view>
 }  // namespace
 
 SensorRays rays_of_pattern(const std::string& pattern, double seconds, double start) {
-  const std::vector<std::string_view> parts = parts_of(pattern);
+  const std::vector<std::string> parts = pieces_of(pattern, ':');
   if (parts[0] == "spinning") return spinning(pattern, seconds);
   if (const PatternFormat* format = pattern_format_of(pattern))
     return format->read(pattern, seconds);
   if (const LidarModel* model = lidar_model(parts[0]))
     return of_model(*model, parts, seconds, start);
   if (std::filesystem::exists(pattern)) return pattern_formats()[0].read(pattern, seconds);
-  std::vector<std::string> names = {"spinning:CHANNELSxSTEPS"};
-  for (const LidarModel& model : lidar_models()) names.emplace_back(model.name);
-  std::string endings;
-  for (const PatternFormat& format : pattern_formats())
-    endings += (endings.empty() ? "" : ", ") + std::string(format.ending);
+  std::vector<std::string> names = names_in(lidar_models());
+  names.insert(names.begin(), "spinning:CHANNELSxSTEPS");
+  const std::string endings = listed(pattern_formats(), &PatternFormat::ending);
   throw WrongUsage("--pattern: must be a lidar's name or a file (" + endings + ") (got \"" +
                    printable(pattern, 80) + "\"; " + suggestion(parts[0], names) + ")");
 }

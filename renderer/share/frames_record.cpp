@@ -96,7 +96,7 @@ void FramesRecord::write() const {
   for (const auto& [name, value] : facts_) json["facts"][name] = value;
   for (const int frame : frames_) json["frames"].push_back(frame);
   const std::string text = json.dump() + "\n";
-  write_file(path_, std::span(reinterpret_cast<const unsigned char*>(text.data()), text.size()));
+  write_file(path_, text);
 }
 
 }  // namespace minkray

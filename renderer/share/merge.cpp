@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "core/files/text.h"
 #include "renderer/base/errors.h"
 #include "renderer/base/of_file.h"
 
@@ -189,7 +190,7 @@ Merged merge_part_files(const std::vector<std::string>& files, bool allow_partia
       merged.counts += counts_of(found);
       std::error_code error;
       merged.costs.push_back({name_of(held),
-                              std::strtod(text_of(found, cpu_seconds_fact).c_str(), nullptr),
+                              finite_number(text_of(found, cpu_seconds_fact)).value_or(0),
                               std::filesystem::file_size(file, error)});
     });
 

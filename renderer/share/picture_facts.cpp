@@ -2,8 +2,9 @@
 #include "renderer/share/picture_facts.h"
 
 #include <algorithm>
-#include <charconv>
 
+#include "core/files/text.h"
+#include "core/support/named_kind.h"
 #include "renderer/base/build.h"
 #include "renderer/base/errors.h"
 #include "renderer/json/json.h"
@@ -18,28 +19,15 @@ namespace {
 /// Whole numbers between separators, nothing else around them.
 std::vector<int> integers(const Facts& facts, const std::string& name, char separator,
                           std::size_t count) {
-  const std::string text = text_of(facts, name);
-  std::vector<int> numbers;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  while (numbers.size() < count) {
-    int number = 0;
-    const auto [next, error] = std::from_chars(at, end, number);
-    const bool is_last = numbers.size() + 1 == count;
-    if (error != std::errc() || (is_last ? next != end : next == end || *next != separator)) break;
-    numbers.push_back(number);
-    at = next + 1;
-  }
-  if (numbers.size() != count) unusable(facts, name);
-  return numbers;
+  const auto numbers = numbers_between<int>(text_of(facts, name), separator);
+  if (!numbers || numbers->size() != count) unusable(facts, name);
+  return *numbers;
 }
 
 /// "ambient", "path 16": its depth counts for paths alone.
 std::string integrator_text(const Scene& scene, const IntegratorOptions& options) {
   const IntegratorKind kind = settled(options.kind, scene);
-  std::string text;
-  for (const IntegratorDescription& description : integrators)
-    if (description.kind == kind) text = description.name;
+  const std::string text(name_in(integrators, kind));
   return kind == IntegratorKind::path ? text + " " + std::to_string(options.max_depth) : text;
 }
 
@@ -47,9 +35,6 @@ std::string integrator_text(const Scene& scene, const IntegratorOptions& options
 
 Facts picture_facts(const Scene& scene, const World& world, const RenderOptions& options) {
   const PixelRect picture = options.picture();
-  std::string solver;
-  for (const SolverDescription& description : solver_descriptions)
-    if (description.kind == world.options().solver) solver = description.name;
   const auto number = [](auto value) { return std::to_string(value); };
   return {
       {fact::software, std::string(version_and_commit())},
@@ -60,7 +45,7 @@ Facts picture_facts(const Scene& scene, const World& world, const RenderOptions&
                        number(picture.y1)},
       {fact::samples, number(options.samples)},
       {fact::seed, number(options.seed)},
-      {fact::solver, solver},
+      {fact::solver, std::string(name_in(solver_descriptions, world.options().solver))},
       {fact::bounces, number(options.integrator.bounces)},
       {fact::integrator, integrator_text(scene, options.integrator)},
       {fact::limits,

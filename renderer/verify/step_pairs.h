@@ -5,9 +5,7 @@
 
 #include <vector>
 
-#include "core/pair_distance/signed_distance.h"
-#include "renderer/clearance/bodies.h"
-#include "renderer/clearance/step_motion.h"
+#include "renderer/clearance/step_pair.h"
 
 namespace minkray {
 
@@ -15,16 +13,6 @@ namespace minkray {
 struct RefereePair {
   std::size_t a = 0, b = 0;
   double margin = 0;
-};
-
-/// Bounds of a pair in a whole step, s from 0 to 1.
-struct StepBound {
-  int frame = -1;    ///< link in whose frame both are measured; -1: the world
-  double size = 0;   ///< sum of both sizes
-  double speed = 0;  ///< largest speed of any point of one relative to the other
-  double acceleration = 0;
-  double loss = 0;  ///< error bound of computed positions
-  bool is_within_numbers = true;
 };
 
 class StepPairs {
@@ -36,8 +24,7 @@ class StepPairs {
 
   StepBound bound(const RefereePair& pair) const;
 
-  /// Returns the distance of the pair at s; beyond `at_most` a lower bound is enough. The normal
-  /// has the axes of the bound's frame.
+  /// Returns the distance of the pair at s; beyond `at_most` a lower bound is enough.
   SignedDistance at(const RefereePair& pair, const StepBound& bound, double s, double at_most,
                     bool only_sign = false);
 
@@ -45,33 +32,25 @@ class StepPairs {
   double gap(const RefereePair& pair, const StepBound& bound, const Vec3<double>& n, double s);
 
   /// Converts a result of `at` to the world.
-  SignedDistance in_world(const RefereePair& pair, const StepBound& bound, SignedDistance found,
-                          double s);
+  SignedDistance in_world(const RefereePair& pair, const StepBound& bound,
+                          const SignedDistance& found, double s);
 
   double time_at(double s) const { return motion_.time_at(s); }
   StepMotion& motion() { return motion_; }
 
  private:
-  struct Place {
-    Mat3<double> linear;
-    TwoFoldVec3<double> middle;
-  };
   struct Around {
     Vec3<double> centre;  ///< centre in the middle of the step
     double radius = 0;    ///< radius of a ball that contains the body during the whole step
   };
 
-  /// Pose in the world's axes.
-  Place place(const ClearanceBody& body, double s);
-  const Place& kept_place(std::size_t body, double s);
-  const Mat3<double>& frame_turn(const StepBound& bound, double s);
-  Between between(const RefereePair& pair, const StepBound& bound, double s, Mat3<double>& turn_a,
-                  Mat3<double>& turn_b);
+  const BodyPlace& kept_place(std::size_t body, double s);
+  StepMoment moment(const RefereePair& pair, const StepBound& bound, double s);
 
   /// Poses of a recent moment: queries on many pairs share few moments.
   struct Moment {
     double s = -1;
-    std::vector<Place> places;
+    std::vector<BodyPlace> places;
     std::vector<bool> known;
   };
   static constexpr std::size_t most_moments = 8;

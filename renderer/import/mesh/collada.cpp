@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
+#include "core/files/text.h"
 #include "renderer/import/mesh/collada_faces.h"
 #include "renderer/import/mesh/collada_looks.h"
 
@@ -27,12 +28,7 @@ using FaceCorners = std::array<std::uint32_t, 3>;
 
 std::size_t count_words(std::string_view text) {
   std::size_t count = 0;
-  char before = ' ';
-  for (const char c : text) {
-    const auto is_blank = [](char x) { return x == ' ' || x == '\t' || x == '\n' || x == '\r'; };
-    count += is_blank(before) && !is_blank(c) ? 1 : 0;
-    before = c;
-  }
+  while (!next_word(text).empty()) ++count;
   return count;
 }
 

@@ -7,6 +7,7 @@
 #include <exception>
 #include <stdexcept>
 
+#include "core/files/text.h"
 #include "renderer/base/hash.h"
 #include "renderer/base/of_file.h"
 #include "renderer/import/mesh/collada.h"
@@ -36,10 +37,7 @@ const MeshFormatReader* format_of(const std::filesystem::path& file) {
 }
 
 std::string mesh_endings() {
-  std::string text;
-  for (const MeshFormatReader& format : mesh_formats())
-    text += (text.empty() ? "" : ", ") + std::string(format.ending);
-  return text;
+  return listed(mesh_formats(), &MeshFormatReader::ending);
 }
 
 /// A format whose files contain vertices only.

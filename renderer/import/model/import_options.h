@@ -2,10 +2,12 @@
 // Options for reading a robot's file as a scene.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include "core/files/mesh_parts.h"
+#include "core/support/named_kind.h"
 #include "renderer/scene/camera_description.h"
 #include "renderer/scene_json/scene_json.h"
 
@@ -17,12 +19,23 @@ enum class GeometryChoice : unsigned char {
   all,        ///< every shape there is
 };
 
+inline constexpr std::array geometry_choices = {
+    NamedKind<GeometryChoice>{GeometryChoice::visual, "visual",
+                              "visual shapes, or collision shapes if there are none"},
+    NamedKind<GeometryChoice>{GeometryChoice::collision, "collision", "collision shapes"},
+    NamedKind<GeometryChoice>{GeometryChoice::all, "all", "both"}};
+
 /// Representation of meshes from files.
 enum class MeshChoice : unsigned char {
   of_format,  ///< triangles; in MJCF hulls for contact; all hulls where --split requests parts
   hull,       ///< the convex hulls of their vertices
   exact,      ///< triangles, for contact as well
 };
+
+/// Choices by name; the format's own has none.
+inline constexpr std::array mesh_choices = {
+    NamedKind<MeshChoice>{MeshChoice::hull, "hull", "convex hulls"},
+    NamedKind<MeshChoice>{MeshChoice::exact, "exact", "triangles"}};
 
 struct ImportOptions {
   GeometryChoice geometry = GeometryChoice::visual;

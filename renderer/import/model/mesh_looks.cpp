@@ -7,6 +7,7 @@
 
 #include "core/files/mtl_file.h"
 #include "core/files/regular_file.h"
+#include "core/files/text.h"
 #include "renderer/base/of_file.h"
 #include "renderer/json/mistakes.h"
 
@@ -15,23 +16,6 @@ namespace {
 
 constexpr std::size_t most_obj_bytes = std::size_t{512} << 20;
 constexpr std::size_t most_mtl_bytes = std::size_t{16} << 20;
-
-/// Without a comment and the blanks around it.
-std::string_view next_line(std::string_view& text) {
-  std::string_view line = text.substr(0, text.find_first_of("\r\n"));
-  text.remove_prefix(std::min(line.size() + 1, text.size()));
-  line = line.substr(0, line.find('#'));
-  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
-  return line.substr(0, line.find_last_not_of(" \t") + 1);
-}
-
-/// Cuts the first word off a line, with the blanks behind it.
-std::string_view next_word(std::string_view& line) {
-  const std::string_view word = line.substr(0, line.find_first_of(" \t"));
-  line.remove_prefix(word.size());
-  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
-  return word;
-}
 
 struct Library {
   std::map<std::string, MtlMaterial> materials;
@@ -88,7 +72,9 @@ MeshLooks obj_looks(const std::filesystem::path& file, const std::vector<std::st
   std::string object, group, material;
   while (!text.empty()) {
     std::string_view line = next_line(text);
+    line = line.substr(0, line.find('#'));
     const std::string_view key = next_word(line);
+    line = without_blanks(line);
     if (key == "o") {
       object = line;
       group.clear();

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <exception>
 #include <utility>
 
 #include "core/files/regular_file.h"
+#include "core/files/text.h"
 #include "renderer/base/hash.h"
 #include "renderer/base/of_file.h"
 
@@ -260,23 +260,12 @@ std::optional<std::vector<double>> XmlFiles::numbers_in(const XmlElement& elemen
                                                         std::string_view what, std::size_t least,
                                                         std::size_t most) {
   std::vector<double> values;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; };
   bool is_good = true;
-  for (;;) {
-    while (at != end && is_blank(*at)) ++at;
-    if (at == end) break;
-    if (*at == '+' && end - at > 1 && at[1] != '-') ++at;
-    double value = 0;
-    const auto [next, error] = std::from_chars(at, end, value);
-    if (error != std::errc() || !std::isfinite(value) || (next != end && !is_blank(*next)) ||
-        values.size() >= most) {
-      is_good = false;
-      break;
-    }
-    values.push_back(value);
-    at = next;
+  std::string_view rest = text;
+  for (std::string_view word = next_word(rest); is_good && !word.empty(); word = next_word(rest)) {
+    const auto value = finite_number(bare_number(word));
+    is_good = value && values.size() < most;
+    if (is_good) values.push_back(*value);
   }
   if (is_good && values.size() >= least) return values;
   const std::string count = least == most ? std::to_string(least)

@@ -104,6 +104,17 @@ BodiesOfPairs::BodiesOfPairs(const minkray_bodies* given, std::size_t count, con
     if (!held->mesh()) held->contact();
 }
 
+void PosedBody::take_map_in(const HeldShape& held) {
+  const Affine<double> map{pose_.linear, Vec3<double>::Zero()};
+  if (mesh_) {
+    mesh_ = mapped(*mesh_, map);
+  } else {
+    own_ = std::make_unique<const ContactShape>(*held.shape(), map);
+    shape_ = own_.get();
+  }
+  pose_.linear.setIdentity();
+}
+
 const ContactShape& PosedBody::shape_or_point() const {
   static const ContactShape point{Shape(Point())};
   return mesh_ ? point : *shape_;
@@ -148,15 +159,7 @@ void BodiesOfPairs::read_slowly(std::size_t i, const minkray_pose& pose, PosedBo
     wrong_use(argument + ": must be rigid: rows of its linear part must have length 1 and be " +
               "square to each other (they are off by " + text + ")");
   }
-  if (body.mesh_) {
-    body.mesh_ = mapped(*body.mesh_, {linear, Vec3<double>::Zero()});
-    body.pose_.linear.setIdentity();
-    return;
-  }
-  body.own_ = std::make_unique<const ContactShape>(*shapes_[shapes_.size() == 1 ? 0 : i]->shape(),
-                                                   Affine<double>{linear, Vec3<double>::Zero()});
-  body.shape_ = body.own_.get();
-  body.pose_.linear.setIdentity();
+  body.take_map_in(*shapes_[shapes_.size() == 1 ? 0 : i]);
 }
 
 RigidMotion BodiesOfPairs::motion(std::size_t i, const PosedBody& body) const {

@@ -11,12 +11,27 @@
 #include "core/parts/parts_body.h"
 #include "renderer/library/handles/c_header.h"
 #include "renderer/library/handles/held_shape.h"
+#include "renderer/library/handles/poses.h"
 
 namespace minkray {
 
-/// A shape and its pose. Made once for many pairs: nothing is allocated for each.
+/// A shape and its pose. A map that does not keep lengths is part of the shape, and its pose only
+/// moves. Made once for many pairs: nothing is allocated for each.
 class PosedBody {
  public:
+  PosedBody() = default;
+  /// Throws CallError if the pose cannot be used, or the shape is in use.
+  PosedBody(const HeldShape& held, const minkray_pose* pose, const char* argument) {
+    refuse_if_running(held.customs(), argument);
+    const bool is_rigid = read_pose(pose, argument, pose_);
+    if (held.mesh()) [[unlikely]]
+      mesh_ = held.mesh();
+    else if (is_rigid) [[likely]]
+      shape_ = &held.contact();
+    if (!is_rigid) [[unlikely]]
+      take_map_in(held);
+  }
+
   PartsBody parts() const { return mesh_ ? PartsBody(*mesh_) : PartsBody(*shape_); }
   bool is_mesh() const { return mesh_ != nullptr; }
   const std::shared_ptr<const TriangleMesh>& mesh() const { return mesh_; }
@@ -28,10 +43,13 @@ class PosedBody {
 
  private:
   friend class BodiesOfPairs;
+  /// Moves the linear part of the pose into the shape.
+  void take_map_in(const HeldShape& held);
+
   const ContactShape* shape_ = nullptr;
   std::shared_ptr<const TriangleMesh> mesh_;
   Affine<double> pose_;
-  /// Set if the pose is not rigid to the last digits, and so part of the shape.
+  /// Set if the map is part of the shape.
   std::unique_ptr<const ContactShape> own_;
 };
 

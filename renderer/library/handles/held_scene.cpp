@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/files/text.h"
 #include "renderer/import/scene_of_model.h"
 #include "renderer/library/handles/call.h"
 #include "renderer/library/handles/scene_bodies.h"
@@ -269,9 +270,8 @@ void HeldScene::set_joint(std::uint32_t group, const std::string& name,
   Group& robot = groups_[group];
   ModelJoint* joint = robot.model ? find_joint(*robot.model, name) : nullptr;
   if (!joint) {
-    std::string names;
-    for (const auto& [known, width] : robot.joints)
-      names += (names.empty() ? "" : ", ") + printable(known, 40);
+    const std::string names =
+        listed(robot.joints, [](const auto& known) { return printable(known.first, 40); });
     wrong_use("joint: must be the name of one of the group's (got \"" + printable(name, 60) +
               "\"; " + (names.empty() ? "it has none" : "known are " + names) + ")");
   }

@@ -8,7 +8,7 @@
 #include "renderer/library/handles/call.h"
 #include "renderer/library/handles/held_shape.h"
 #include "renderer/library/handles/poses.h"
-#include "renderer/member_json/read_member.h"
+#include "renderer/member_json/member_codec.h"
 #include "renderer/member_json/tagged_json.h"
 
 namespace minkray {
@@ -92,7 +92,7 @@ class Arguments {
     Json json = Json::object();
     json[field.name] = as_json<Member>(numbers(given));
     ObjectReader object(json, JsonPath(), mistakes_);
-    return read_member(object, field, member, no_files_);
+    return MemberCodec<Member>::read(object, field, member, no_files_);
   }
 
   bool fill_from(const minkray_parameter& given, const Parameter& field, PointCloud& cloud) {

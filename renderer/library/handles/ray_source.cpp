@@ -67,6 +67,18 @@ void RaySource::complain(std::size_t i) const {
   wrong_use(place + "direction: must not be zero (got [0, 0, 0])");
 }
 
+namespace {
+
+/// Sets what a ray without a hit has.
+inline void put_no_hit(minkray_hit& to) {
+  to.t = to.t_lo = to.t_hi = to.t_base = std::numeric_limits<double>::infinity();
+  to.t_offset = 0;
+  for (double& x : to.point) x = std::numeric_limits<double>::quiet_NaN();
+  for (double& x : to.normal) x = 0;
+}
+
+}  // namespace
+
 void plain_hit(const Ray<double>& ray, const WorldHit& hit, bool gave_up, minkray_hit& to) {
   const CastResult<double>& cast = hit.cast;
   // A body whose solver did not converge may have been in front of anything.
@@ -74,13 +86,7 @@ void plain_hit(const Ray<double>& ray, const WorldHit& hit, bool gave_up, minkra
   to.object = hit.instance;
   to.supports = cast.supports;
   to.part = static_cast<std::int32_t>(hit.part);
-  if (!hit.found()) {
-    to.t = to.t_lo = to.t_hi = to.t_base = std::numeric_limits<double>::infinity();
-    to.t_offset = 0;
-    for (double& x : to.point) x = std::numeric_limits<double>::quiet_NaN();
-    for (double& x : to.normal) x = 0;
-    return;
-  }
+  if (!hit.found()) return put_no_hit(to);
   to.t = cast.t();
   to.t_lo = sum_or_less(cast.t_base, cast.offset_lo);
   to.t_hi = sum_or_more(cast.t_base, cast.offset_hi);
@@ -100,11 +106,7 @@ void plain_hit(const Ray<double>& ray, const BlockHits& hits, std::size_t i, min
   to.part = -1;
   if (!(hits.found >> i & 1u)) {
     to.status = MINKRAY_MISS;
-    to.t = to.t_lo = to.t_hi = to.t_base = std::numeric_limits<double>::infinity();
-    to.t_offset = 0;
-    for (double& x : to.point) x = std::numeric_limits<double>::quiet_NaN();
-    for (double& x : to.normal) x = 0;
-    return;
+    return put_no_hit(to);
   }
   const CastPacket& casts = hits.casts[i / 4];
   const std::size_t lane = i % 4;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Exits and all hits of rays, for scene_rays.py.
+#include <algorithm>
 #include <cmath>
 
 #include "renderer/library/python/bind.h"
+#include "renderer/library/python/columns.h"
 #include "renderer/library/python/interruptible.h"
 #include "renderer/library/python/ray_rows.h"
 
@@ -10,13 +12,6 @@ namespace minkray_python {
 namespace {
 
 using minkray::Scene;
-
-/// Rows of `width` numbers, or numbers.
-template <class Number>
-py::array_t<Number> rows_for(std::size_t count, py::ssize_t width = 0) {
-  const auto n = static_cast<py::ssize_t>(count);
-  return width == 0 ? py::array_t<Number>(n) : py::array_t<Number>({n, width});
-}
 
 py::dict exit(const Scene& scene, std::uint32_t object, const py::object& rays,
               const py::object& t_max, int threads) {
@@ -27,79 +22,40 @@ py::dict exit(const Scene& scene, std::uint32_t object, const py::object& rays,
   Interruptible(threads).run([&](const minkray_options* options) {
     return minkray_scene_exit(scene.handle(), object, plain.data(), count, hits.data(), options);
   });
-  auto t = rows_for<double>(count), t_lo = rows_for<double>(count), t_hi = rows_for<double>(count),
-       distance = rows_for<double>(count), point = rows_for<double>(count, 3),
-       normal = rows_for<double>(count, 3);
-  auto objects = rows_for<std::uint32_t>(count);
-  auto status = rows_for<std::uint8_t>(count);
-  auto supports = rows_for<std::int32_t>(count), part = rows_for<std::int32_t>(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto k = static_cast<py::ssize_t>(i);
-    const double* const d = plain[i].direction;
-    const minkray_hit& hit = hits[i];
-    t.mutable_at(k) = hit.t;
-    t_lo.mutable_at(k) = hit.t_lo;
-    t_hi.mutable_at(k) = hit.t_hi;
-    distance.mutable_at(k) = hit.t > 0 ? hit.t * std::hypot(d[0], d[1], d[2]) : hit.t;
-    for (py::ssize_t axis = 0; axis < 3; ++axis) {
-      point.mutable_at(k, axis) = hit.point[axis];
-      normal.mutable_at(k, axis) = hit.normal[axis];
-    }
-    objects.mutable_at(k) = hit.object;
-    status.mutable_at(k) = static_cast<std::uint8_t>(hit.status);
-    supports.mutable_at(k) = hit.supports;
-    part.mutable_at(k) = hit.part;
-  }
+  const std::span<const minkray_hit> rows(hits);
   py::dict result;
-  result["t"] = t;
-  result["distance"] = distance;
-  result["t_lo"] = t_lo;
-  result["t_hi"] = t_hi;
-  result["point"] = point;
-  result["normal"] = normal;
-  result["object"] = objects;
-  result["status"] = status;
-  result["supports"] = supports;
-  result["part"] = part;
+  add_column(result, "t", rows, &minkray_hit::t);
+  double* const distance = add_column<double>(result, "distance", static_cast<py::ssize_t>(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    const double* const d = plain[i].direction;
+    distance[i] = hits[i].t > 0 ? hits[i].t * std::hypot(d[0], d[1], d[2]) : hits[i].t;
+  }
+  add_column(result, "t_lo", rows, &minkray_hit::t_lo);
+  add_column(result, "t_hi", rows, &minkray_hit::t_hi);
+  add_column(result, "point", rows, &minkray_hit::point);
+  add_column(result, "normal", rows, &minkray_hit::normal);
+  add_column(result, "object", rows, &minkray_hit::object);
+  add_column<std::uint8_t>(result, "status", rows, &minkray_hit::status);
+  add_column(result, "supports", rows, &minkray_hit::supports);
+  add_column(result, "part", rows, &minkray_hit::part);
   return result;
 }
 
 /// Arrays of all hits; made with the interpreter's lock, in the callback.
 py::dict arrays_of(const minkray_all_hits& found) {
-  const std::size_t count = found.offsets[found.rays];
-  auto t = rows_for<double>(count), t_lo = rows_for<double>(count), t_hi = rows_for<double>(count),
-       point = rows_for<double>(count, 3), normal = rows_for<double>(count, 3);
-  auto object = rows_for<std::uint32_t>(count);
-  auto part = rows_for<std::int32_t>(count);
-  auto leaves = rows_for<bool>(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto k = static_cast<py::ssize_t>(i);
-    const minkray_crossing& hit = found.hits[i];
-    t.mutable_at(k) = hit.t;
-    t_lo.mutable_at(k) = hit.t_lo;
-    t_hi.mutable_at(k) = hit.t_hi;
-    for (py::ssize_t axis = 0; axis < 3; ++axis) {
-      point.mutable_at(k, axis) = hit.point[axis];
-      normal.mutable_at(k, axis) = hit.normal[axis];
-    }
-    object.mutable_at(k) = hit.object;
-    part.mutable_at(k) = hit.part;
-    leaves.mutable_at(k) = hit.leaves != 0;
-  }
-  auto offsets = rows_for<std::int64_t>(found.rays + 1);
-  for (std::size_t i = 0; i <= found.rays; ++i)
-    offsets.mutable_at(static_cast<py::ssize_t>(i)) = static_cast<std::int64_t>(found.offsets[i]);
+  const std::span rows(found.hits, found.offsets[found.rays]);
   py::dict result;
-  result["t"] = t;
-  result["t_lo"] = t_lo;
-  result["t_hi"] = t_hi;
-  result["point"] = point;
-  result["normal"] = normal;
-  result["object"] = object;
-  result["part"] = part;
-  result["leaves"] = leaves;
-  result["offsets"] = offsets;
-  result["status"] = py::array_t<std::uint8_t>(static_cast<py::ssize_t>(found.rays), found.status);
+  add_column(result, "t", rows, &minkray_crossing::t);
+  add_column(result, "t_lo", rows, &minkray_crossing::t_lo);
+  add_column(result, "t_hi", rows, &minkray_crossing::t_hi);
+  add_column(result, "point", rows, &minkray_crossing::point);
+  add_column(result, "normal", rows, &minkray_crossing::normal);
+  add_column(result, "object", rows, &minkray_crossing::object);
+  add_column(result, "part", rows, &minkray_crossing::part);
+  add_column<bool>(result, "leaves", rows, &minkray_crossing::leaves);
+  const auto rays = static_cast<py::ssize_t>(found.rays);
+  std::copy_n(found.offsets, found.rays + 1, add_column<std::int64_t>(result, "offsets", rays + 1));
+  std::copy_n(found.status, found.rays, add_column<std::uint8_t>(result, "status", rays));
   return result;
 }
 

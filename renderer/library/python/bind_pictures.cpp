@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "renderer/library/python/bind.h"
+#include "renderer/library/python/columns.h"
 #include "renderer/library/python/interruptible.h"
 
 namespace minkray_python {
@@ -52,23 +53,6 @@ py::dict render(const Scene& scene, const std::string& view, std::uint32_t width
   return result;
 }
 
-py::array_t<double> points(const std::vector<minkray_clearance>& found,
-                           const double (minkray_clearance::*of)[3]) {
-  const auto n = static_cast<py::ssize_t>(found.size());
-  py::array_t<double> array({n, py::ssize_t{3}});
-  for (std::size_t i = 0; i < found.size(); ++i)
-    std::copy_n(found[i].*of, 3, array.mutable_data(static_cast<py::ssize_t>(i), 0));
-  return array;
-}
-
-template <class T>
-py::array_t<T> column(const std::vector<minkray_clearance>& found, T minkray_clearance::*of) {
-  py::array_t<T> array(static_cast<py::ssize_t>(found.size()));
-  for (std::size_t i = 0; i < found.size(); ++i)
-    array.mutable_at(static_cast<py::ssize_t>(i)) = found[i].*of;
-  return array;
-}
-
 py::dict clearance(const Scene& scene, const Scene::Group& robot, const Doubles& path,
                    double tolerance, bool only_obstacles, bool jac, bool jac_error, int threads) {
   if (path.ndim() != 2) throw py::value_error("path: must have shape (rows, joint values)");
@@ -97,14 +81,15 @@ py::dict clearance(const Scene& scene, const Scene::Group& robot, const Doubles&
   }
   check(code);
   py::dict result;
-  result["lower"] = column(steps, &minkray_clearance::lower);
-  result["upper"] = column(steps, &minkray_clearance::upper);
-  result["row"] = column(steps, &minkray_clearance::row);
-  result["object_a"] = column(steps, &minkray_clearance::object_a);
-  result["object_b"] = column(steps, &minkray_clearance::object_b);
-  result["point_a"] = points(steps, &minkray_clearance::point_a);
-  result["point_b"] = points(steps, &minkray_clearance::point_b);
-  result["normal"] = points(steps, &minkray_clearance::normal);
+  const std::span<const minkray_clearance> found(steps);
+  add_column(result, "lower", found, &minkray_clearance::lower);
+  add_column(result, "upper", found, &minkray_clearance::upper);
+  add_column(result, "row", found, &minkray_clearance::row);
+  add_column(result, "object_a", found, &minkray_clearance::object_a);
+  add_column(result, "object_b", found, &minkray_clearance::object_b);
+  add_column(result, "point_a", found, &minkray_clearance::point_a);
+  add_column(result, "point_b", found, &minkray_clearance::point_b);
+  add_column(result, "normal", found, &minkray_clearance::normal);
   if (jac) {
     result["jac"] = by_joints;
     result["is_ridge"] = is_ridge;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/library/python/bind.h"
+#include "renderer/library/python/columns.h"
 #include "renderer/library/python/interruptible.h"
 #include "renderer/library/python/ray_rows.h"
 
@@ -19,41 +20,28 @@ py::dict cast(const Scene& scene, const py::object& rays, const py::object& t_ma
               bool jac, bool jac_error) {
   const RayRows source(rays, t_max);
   const auto n = static_cast<py::ssize_t>(source.rows.count);
-  py::array_t<double> t(n), t_lo(n), t_hi(n), distance(n), point({n, py::ssize_t{3}}),
-      normal({n, py::ssize_t{3}});
-  py::array_t<std::uint32_t> object(n);
-  py::array_t<std::uint8_t> status(n);
-  py::array_t<std::int32_t> supports(n), part(n);
-  const minkray_hit_arrays hits = {sizeof hits,
-                                   t.mutable_data(),
-                                   t_lo.mutable_data(),
-                                   t_hi.mutable_data(),
-                                   distance.mutable_data(),
-                                   point.mutable_data(),
-                                   normal.mutable_data(),
-                                   object.mutable_data(),
-                                   status.mutable_data(),
-                                   supports.mutable_data(),
-                                   part.mutable_data()};
   py::dict result;
+  const minkray_hit_arrays hits = {sizeof hits,
+                                   add_column<double>(result, "t", n),
+                                   add_column<double>(result, "t_lo", n),
+                                   add_column<double>(result, "t_hi", n),
+                                   add_column<double>(result, "distance", n),
+                                   add_column<double>(result, "point", n, 3),
+                                   add_column<double>(result, "normal", n, 3),
+                                   add_column<std::uint32_t>(result, "object", n),
+                                   add_column<std::uint8_t>(result, "status", n),
+                                   add_column<std::int32_t>(result, "supports", n),
+                                   add_column<std::int32_t>(result, "part", n)};
   minkray_ray_derivatives derivatives = {};
   derivatives.size = sizeof derivatives;
   if (jac) {
-    py::array_t<double> by_ray({n, py::ssize_t{6}}), by_body({n, py::ssize_t{6}});
-    py::array_t<bool> is_ridge(n);
-    derivatives.jac_ray = by_ray.mutable_data();
-    derivatives.jac_body = by_body.mutable_data();
-    derivatives.is_ridge = reinterpret_cast<std::uint8_t*>(is_ridge.mutable_data());
-    result["jac_ray"] = by_ray;
-    result["jac_body"] = by_body;
-    result["is_ridge"] = is_ridge;
+    derivatives.jac_ray = add_column<double>(result, "jac_ray", n, 6);
+    derivatives.jac_body = add_column<double>(result, "jac_body", n, 6);
+    derivatives.is_ridge = reinterpret_cast<std::uint8_t*>(add_column<bool>(result, "is_ridge", n));
   }
   if (jac_error) {
-    py::array_t<double> of_ray({n, py::ssize_t{2}}), of_body({n, py::ssize_t{2}});
-    derivatives.jac_error_ray = of_ray.mutable_data();
-    derivatives.jac_error_body = of_body.mutable_data();
-    result["jac_error_ray"] = of_ray;
-    result["jac_error_body"] = of_body;
+    derivatives.jac_error_ray = add_column<double>(result, "jac_error_ray", n, 2);
+    derivatives.jac_error_body = add_column<double>(result, "jac_error_body", n, 2);
   }
   Interruptible(threads).run([&](const minkray_options* options) {
     const int code = minkray_scene_cast_arrays(scene.handle(), &source.arrays, source.rows.count,
@@ -62,16 +50,6 @@ py::dict cast(const Scene& scene, const py::object& rays, const py::object& t_ma
     return minkray_scene_ray_derivatives(scene.handle(), &source.arrays, source.rows.count, &hits,
                                          &derivatives, options);
   });
-  result["t"] = t;
-  result["t_lo"] = t_lo;
-  result["t_hi"] = t_hi;
-  result["distance"] = distance;
-  result["point"] = point;
-  result["normal"] = normal;
-  result["object"] = object;
-  result["status"] = status;
-  result["supports"] = supports;
-  result["part"] = part;
   return result;
 }
 
@@ -100,28 +78,16 @@ py::dict certify(const Scene& scene, const py::object& rays, const py::object& t
     return minkray_scene_prove(scene.handle(), plain.data(), hits.data(), count, proofs.data(),
                                options);
   });
-  const auto n = static_cast<py::ssize_t>(count);
-  py::array_t<bool> holds(n);
-  py::array_t<double> t_lo(n), t_hi(n), allowed(n), plane({n, py::ssize_t{3}});
-  py::array_t<std::uint32_t> checked(n);
+  const std::span<const minkray_proof> rows(proofs);
   py::list complaints;
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto k = static_cast<py::ssize_t>(i);
-    holds.mutable_at(k) = proofs[i].holds != 0;
-    t_lo.mutable_at(k) = proofs[i].t_lo;
-    t_hi.mutable_at(k) = proofs[i].t_hi;
-    for (py::ssize_t axis = 0; axis < 3; ++axis) plane.mutable_at(k, axis) = proofs[i].plane[axis];
-    allowed.mutable_at(k) = proofs[i].allowed;
-    checked.mutable_at(k) = proofs[i].checked;
-    complaints.append(py::str(proofs[i].complaint));
-  }
+  for (const minkray_proof& proof : rows) complaints.append(py::str(proof.complaint));
   py::dict result;
-  result["holds"] = holds;
-  result["t_lo"] = t_lo;
-  result["t_hi"] = t_hi;
-  result["allowed"] = allowed;
-  result["plane"] = plane;
-  result["checked"] = checked;
+  add_column<bool>(result, "holds", rows, &minkray_proof::holds);
+  add_column(result, "t_lo", rows, &minkray_proof::t_lo);
+  add_column(result, "t_hi", rows, &minkray_proof::t_hi);
+  add_column(result, "allowed", rows, &minkray_proof::allowed);
+  add_column(result, "plane", rows, &minkray_proof::plane);
+  add_column(result, "checked", rows, &minkray_proof::checked);
   result["complaint"] = complaints;
   return result;
 }

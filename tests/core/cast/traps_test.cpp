@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "core/cast/cast.h"
-#include "core/shape_cast/distance.h"
+#include "renderer/shape_cast/distance.h"
 #include "tests/support/ray_families.h"
 #include "tests/support/sample_shapes.h"
 #include "tests/support/traps.h"

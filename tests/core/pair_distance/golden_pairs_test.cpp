@@ -10,11 +10,11 @@
 #include "core/pair_distance/manifold.h"
 #include "core/pair_motion/impact.h"
 #include "core/pair_motion/swept.h"
-#include "core/shape_cast/rotating_cast.h"
-#include "core/shape_cast/shape_cast.h"
+#include "renderer/shape_cast/rotating_cast.h"
+#include "renderer/shape_cast/shape_cast.h"
 #include "tests/core/pair_distance/aligned_bodies.h"
 #include "tests/core/pair_distance/pair_judge.h"
-#include "tests/core/shape_cast/random_poses.h"
+#include "tests/renderer/shape_cast/random_poses.h"
 #include "tests/support/hashed_bits.h"
 
 namespace minkray::testing {

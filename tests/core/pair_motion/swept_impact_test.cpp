@@ -108,7 +108,9 @@ TEST(SweptImpact, of_a_miss_tells_the_distance_at_the_end_if_it_is_asked_for) {
   EXPECT_NEAR(found.point_a.y(), 1, 1e-14);
   ImpactOptions options;
   options.points_of_misses = false;
-  EXPECT_EQ(first_impact(ball, still, ball, passing, 5, options).steps, 0);
+  const Impact bare = first_impact(ball, still, ball, passing, 5, options);
+  EXPECT_EQ(bare.steps, 0);
+  EXPECT_EQ(bare.distance, std::numeric_limits<double>::infinity());
 }
 
 /// Squares of speeds of 1e155 are infinite, and those of 1e-162 have no digits: balls passed by

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "core/shape_cast/distance.h"
 #include "renderer/paper/claim.h"
 #include "renderer/paper/panels.h"
 #include "renderer/paper/trace_picture.h"
+#include "renderer/shape_cast/distance.h"
 #include "tests/support/messages.h"
 #include "tests/support/shifted.h"
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Casts shapes, and finds where they touch at the time of impact.
-#include "core/shape_cast/shape_cast.h"
+#include "renderer/shape_cast/shape_cast.h"
 
 #include "core/pair_distance/signed_distance.h"
-#include "core/shape_cast/distance.h"
+#include "renderer/shape_cast/distance.h"
 
 namespace minkray {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "core/shape_cast/shape_cast.h"
+#include "renderer/shape_cast/shape_cast.h"
 
 #include <gtest/gtest.h>
 
-#include "core/shape_cast/distance.h"
-#include "tests/core/shape_cast/random_poses.h"
+#include "renderer/shape_cast/distance.h"
+#include "tests/renderer/shape_cast/random_poses.h"
 
 namespace minkray {
 namespace {

@@ -2,7 +2,7 @@
 // Contacts of two shapes that only just meet: the two points of the contact are one.
 #include <gtest/gtest.h>
 
-#include "core/shape_cast/shape_cast.h"
+#include "renderer/shape_cast/shape_cast.h"
 #include "tests/core/pair_distance/pair_judge.h"
 #include "tests/support/random.h"
 #include "tests/support/sample_shapes.h"

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
-#include "core/shape_cast/distance.h"
-#include "core/shape_cast/shape_cast.h"
+#include "renderer/shape_cast/distance.h"
+#include "renderer/shape_cast/shape_cast.h"
 #include "tests/support/mapped.h"
 #include "tests/support/random.h"
 

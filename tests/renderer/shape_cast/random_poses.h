@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "core/shape_cast/distance.h"
-#include "core/shape_cast/shape_cast.h"
+#include "renderer/shape_cast/distance.h"
+#include "renderer/shape_cast/shape_cast.h"
 #include "tests/core/pair_distance/random_numbers.h"
 #include "tests/support/shifted.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "core/shape_cast/distance.h"
+#include "renderer/shape_cast/distance.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/core/shape_cast/random_poses.h"
 #include "tests/oracle/wolfe.h"
+#include "tests/renderer/shape_cast/random_poses.h"
 #include "tests/support/shifted.h"
 
 namespace minkray {

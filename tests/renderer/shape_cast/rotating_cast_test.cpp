@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "core/shape_cast/rotating_cast.h"
+#include "renderer/shape_cast/rotating_cast.h"
 
 #include <gtest/gtest.h>
 
-#include "core/shape_cast/distance.h"
+#include "renderer/shape_cast/distance.h"
 #include "tests/support/random.h"
 #include "tests/support/shifted.h"
 

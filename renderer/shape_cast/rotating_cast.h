@@ -3,7 +3,7 @@
 // section 1: orientations change in fixed steps, and positions are interpolated.
 #pragma once
 
-#include "core/shape_cast/shape_cast.h"
+#include "renderer/shape_cast/shape_cast.h"
 
 namespace minkray {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Applies the distance algorithm to shapes, in 3D and in the plane.
-#include "core/shape_cast/distance.h"
+#include "renderer/shape_cast/distance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "tests/core/shape_cast/random_poses.h"
+#include "tests/renderer/shape_cast/random_poses.h"
 
 namespace minkray {
 namespace {

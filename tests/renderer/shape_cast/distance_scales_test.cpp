@@ -2,7 +2,7 @@
 // Distances are as precise wherever the two shapes are, and however large.
 #include <gtest/gtest.h>
 
-#include "tests/core/shape_cast/random_poses.h"
+#include "tests/renderer/shape_cast/random_poses.h"
 #include "tests/support/shifted.h"
 
 namespace minkray {

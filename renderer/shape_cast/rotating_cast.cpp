@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "core/shape_cast/rotating_cast.h"
+#include "renderer/shape_cast/rotating_cast.h"
 
 #include <cmath>
 
 #include "core/math/length.h"
-#include "core/shape_cast/distance.h"
+#include "core/pair_motion/impact.h"
+#include "renderer/shape_cast/distance.h"
 
 namespace minkray {
 namespace {
@@ -25,14 +26,7 @@ double radius_about_pivot(const MovingBody& body) {
 }  // namespace
 
 Affine<double> pose_at(const MovingBody& body, double time) {
-  Affine<double> pose = body.pose;
-  pose.translation += time * body.velocity;
-  const double speed = length_of<double>(body.angular_velocity), angle = time * speed;
-  if (angle > 0.0)
-    pose.linear =
-        Eigen::AngleAxis<double>(angle, body.angular_velocity / speed).toRotationMatrix() *
-        body.pose.linear;
-  return pose;
+  return RigidMotion{body.pose, body.velocity, body.angular_velocity}.at(time);
 }
 
 RotatingCastResult cast_rotating(const MovingBody& a, const MovingBody& b, double duration,
