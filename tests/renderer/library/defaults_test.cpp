@@ -135,6 +135,30 @@ TEST(Defaults, shapes_that_do_not_meet_have_no_time_of_impact) {
   EXPECT_TRUE(std::isfinite(inside.t_hi));
 }
 
+/// A distance that is unknown was 0.
+TEST(Defaults, distance_of_a_miss_is_infinite_if_it_is_unknown) {
+  const std::vector<mk::Vec3> corners = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+  const mk::Shape ball = mk::sphere(1), mesh = mk::mesh(corners, {0, 1, 2});
+  const auto distance = [](const mk::Shape& a, const mk::Shape& b, const mk::Vec3& velocity) {
+    const mk::Impact miss =
+        mk::time_of_impact(a, {}, {}, b, mk::translation({0, 0, 4}), {velocity, {}}, 10);
+    EXPECT_EQ(miss.status, mk::no_impact);
+    EXPECT_EQ(miss.t_lo, 10);
+    return miss.distance;
+  };
+  EXPECT_NEAR(distance(ball, ball, {0, 0, 1}), 12, 1e-9);
+  EXPECT_EQ(distance(ball, ball, {0, 0, 1e160}), infinity);
+  EXPECT_EQ(distance(mesh, ball, {0, 0, 1}), infinity);
+  EXPECT_EQ(distance(mesh, mesh, {0, 0, 1}), infinity);
+  mk::Scene scene;
+  scene.add(ball, {}, "ball");
+  scene.commit();
+  const mk::SceneImpact passed =
+      scene.time_of_impact(ball, mk::translation({0, 0, 4}), {{0, 0, 1}, {}}, 10);
+  EXPECT_EQ(passed.impact.status, mk::no_impact);
+  EXPECT_EQ(passed.impact.distance, infinity);
+}
+
 TEST(Defaults, statuses_of_pairs_have_names) {
   const mk::Shape ball = mk::sphere(1);
   const auto status = [&](double x) {

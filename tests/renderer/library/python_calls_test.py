@@ -218,6 +218,18 @@ class Lists(unittest.TestCase):
         miss = mk.time_of_impact(mk.sphere(1), None, None, mk.sphere(1), at(4), [9, 0, 0, 0, 0, 0], 10)
         self.assertIs(miss.status, mk.ImpactStatus.NO_IMPACT)
         self.assertEqual((miss.t_lo, miss.t_hi), (10, np.inf))
+        self.assertAlmostEqual(miss.distance, 92)
+
+    def test_of_a_miss_have_an_infinite_distance_if_it_is_unknown(self):
+        ball, mesh = mk.sphere(1), mk.mesh([[-1, -1, 0], [1, -1, 0], [0, 1, 0]], [[0, 1, 2]])
+        for a, speed, distance in ((ball, 1, 12), (ball, 1e160, np.inf), (mesh, 1, np.inf)):
+            twist = [0, 0, speed, 0, 0, 0]
+            with self.subTest(distance=distance, speed=speed):
+                alone = mk.time_of_impact(a, None, None, ball, at(0, 0, 4), twist, 10)
+                batch = mk.times_of_impact(a, None, None, ball, [at(0, 0, 4)] * 2, [twist] * 2, t_max=10)
+                self.assertIs(alone.status, mk.ImpactStatus.NO_IMPACT)
+                self.assertAlmostEqual(alone.distance, distance)
+                np.testing.assert_allclose(batch.distance, [distance] * 2)
 
     def test_of_operands_are_operands(self):
         a, b = mk.sphere(1), mk.box([1, 2, 3])

@@ -135,6 +135,28 @@ TEST(Queries, impacts_say_between_which_times) {
                   "/t_max"));
 }
 
+/// The distance is that at the last time; its square is beyond doubles for the faster ball.
+TEST(Queries, impacts_leave_out_what_is_unknown_of_a_miss) {
+  for (const auto& [velocity, is_known] : {std::pair("[1,0,0]", true), {"[1e160,0,0]", false}}) {
+    Mistakes mistakes("q");
+    const auto query = parse(
+        std::string(
+            R"({"query":"impact","a":{"type":"sphere","radius":1},"b":{"type":"transform","shape":{"type":"sphere","radius":1},"translate":[5,0,0]},"t_max":10,"motion_b":{"velocity":)") +
+            velocity + "}}",
+        mistakes);
+    ASSERT_TRUE(query) << mistakes.text();
+    const Json json = answer(*query, {}).json;
+    EXPECT_EQ(json.at("status").text(), "miss") << velocity;
+    EXPECT_EQ(json.at("t_lo").get<double>(), 10) << velocity;
+    EXPECT_TRUE(json.at("t_hi").is_null()) << velocity;
+    EXPECT_NE(json.find("normal"), nullptr) << velocity;
+    for (const char* key : {"distance", "point_a", "point_b"})
+      EXPECT_EQ(json.find(key) != nullptr, is_known) << velocity << ' ' << key;
+    if (!is_known) continue;
+    EXPECT_NEAR(json.at("distance").get<double>(), 13, 1e-9);
+  }
+}
+
 /// Our bodies turned about their middles, and the libraries' about their frames' origins: one body
 /// met another at 2.0, or swung past it until 5.3.
 TEST(Queries, bodies_turn_about_the_origin_of_their_frame) {
