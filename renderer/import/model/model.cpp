@@ -145,7 +145,7 @@ std::vector<double> value_of(const ModelLink& link, const ModelJoint& joint) {
       return {0, 0, 0};
     case JointKind::free: {
       const Vec3<double>& at = link.rest.translation;
-      const auto [w, x, y, z] = quaternion_of(link.rest.linear);
+      const auto [x, y, z, w] = quaternion_of(link.rest.linear);
       return {at.x(), at.y(), at.z(), w, x, y, z};
     }
     case JointKind::fixed:

@@ -125,6 +125,29 @@ TEST(Urdf, links_stand_where_a_second_way_in_long_double_puts_them) {
   }
 }
 
+/// The turn of a free joint at rest had its numbers in another order.
+TEST(Mjcf, links_stay_where_they_are_with_the_values_at_which_joints_rest) {
+  Mistakes mistakes("robot.xml");
+  std::optional<Model> model = parse_model(R"(<mujoco><worldbody>
+  <body pos="1 2 3" quat=".1 .5 -.3 .8"><freejoint name="free"/><geom size=".1"/>
+    <body pos="0 1 0" quat=".7 .1 .2 .3"><joint name="hinge" axis="1 2 3" ref=".5"/><geom size=".1"/>
+      <body pos="1 0 0"><joint name="ball" type="ball" pos=".1 .2 .3"/><geom size=".1"/>
+        <body pos="1 0 0"><joint name="slide" type="slide" axis="0 1 1" ref=".2"/><geom size=".1"/></body>
+      </body>
+    </body>
+  </body></worldbody></mujoco>)",
+                                           "robot.xml", {}, mistakes);
+  ASSERT_TRUE(model) << mistakes.text();
+  const std::vector<Affine<double>> before = link_poses(*model);
+  for (ModelLink& link : model->links)
+    for (ModelJoint& joint : link.joints) joint.value = value_of(link, joint);
+  const std::vector<Affine<double>> after = link_poses(*model);
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    EXPECT_LT((after[i].linear - before[i].linear).norm(), 1e-14) << model->links[i].name;
+    EXPECT_LT((after[i].translation - before[i].translation).norm(), 1e-14);
+  }
+}
+
 TEST(Urdf, links_stand_where_dart_puts_them) {
   if (!has_robot_models()) GTEST_SKIP() << "run scenes/fetch-models";
   for (const char* name : robots_beside_dart) {

@@ -125,6 +125,29 @@ TEST_F(VerifyVerb, serves_a_verdict_for_each_line) {
   EXPECT_EQ(status, (std::vector<std::string>{"free", "collides", "error"}));
 }
 
+/// The turn of a free joint at rest had its numbers in another order: the rod was upright, and a
+/// motion that hits the ball was `free`.
+TEST_F(VerifyVerb, free_joints_without_values_rest_as_their_file_says) {
+  // Half a turn about x: the rod goes down from z = 0.7 to 0.2, below it a ball at z = 0.
+  write("free.xml", R"(<mujoco><worldbody>
+  <body name="base" pos="0 0 1" quat="0 1 0 0"><freejoint name="root"/>
+    <geom name="rod" type="capsule" size=".05" fromto="0 0 .3 0 0 .8"/>
+    <body name="arm" pos=".3 0 0"><joint name="turn" axis="0 0 1"/><geom size=".05" pos=".2 0 0"/></body>
+  </body></worldbody></mujoco>)");
+  write("turn.csv", "time,turn\n0,0\n1,0.1\n");
+  for (const auto& [radius, code, text] :
+       {std::tuple("0.1", 0, "free: every pair stays at least 50 mm apart (rod, ball"),
+        {"0.2", 1, "rod and ball collide from 0 s to 1 s"}}) {
+    write("ball.yaml", std::string("world:\n  collision_objects:\n    - {id: ball, primitives: "
+                                   "[{type: sphere, dimensions: [") +
+                           radius + "]}], primitive_poses: [{position: [0, 0, 0]}]}\n");
+    const ProgramOutcome outcome =
+        VerifyFolder::verify("--robot free.xml --trajectory turn.csv --scene ball.yaml");
+    expect_exit(code, outcome);
+    EXPECT_TRUE(has(outcome.out, text)) << radius;
+  }
+}
+
 /// Velocities lead a continuous joint round its whole way, where a post is.
 TEST_F(VerifyVerb, continuous_joints_with_velocities_go_their_own_way) {
   std::ifstream file(folder_ / "swing.urdf");
