@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <cstdint>
 #include <stdexcept>
 #include <string>
@@ -173,8 +172,7 @@ Vertices vertices_of_binary_stl(std::string_view bytes, TriangleFans fans) {
 
 Vertices read_mesh_vertices(const std::filesystem::path& path, MeshTriangles* triangles,
                             MeshAttributes* attributes) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = lower_ending(path);
   if (extension != ".obj" && extension != ".stl") {
     throw std::runtime_error("must be a mesh file that ends in .obj or .stl");
   }

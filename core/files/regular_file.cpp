@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "core/files/text.h"
+
 namespace minkray {
 namespace {
 
@@ -74,6 +76,10 @@ std::string read_regular_file(const std::filesystem::path& path, std::size_t mos
   }
   text.resize(filled);
   return text;
+}
+
+std::string lower_ending(const std::filesystem::path& path) {
+  return lower_case(path.extension().string());
 }
 
 }  // namespace minkray

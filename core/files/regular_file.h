@@ -36,4 +36,7 @@ class RegularFile {
 /// read). Never waits for another process.
 std::string read_regular_file(const std::filesystem::path& path, std::size_t most_bytes);
 
+/// Returns the ending in lower case, with its dot: ".obj".
+std::string lower_ending(const std::filesystem::path& path);
+
 }  // namespace minkray

@@ -35,15 +35,11 @@ struct AllowedLinks {
       read_srdf(srdf, model, allowed, of_file);
       throw_if_any(of_file);
     }
-    const auto is_link = [&](const std::string& name) {
-      return std::ranges::any_of(model.links,
-                                 [&](const ModelLink& link) { return link.name == name; });
-    };
     for (const std::string& text : pairs) {
       const std::size_t comma = text.find(',');
       const std::string a = text.substr(0, comma),
                         b = comma == text.npos ? "" : text.substr(comma + 1);
-      if (is_link(a) && is_link(b))
+      if (find_link(model, a) >= 0 && find_link(model, b) >= 0)
         allowed.allow(a, b);
       else
         mistakes.add("--allow: must be two links of the robot with a comma between them (got \"" +

@@ -18,9 +18,7 @@ void read_srdf(const std::string& file, const Model& model, AllowedPairs& allowe
   }
   const auto link = [&](const XmlElement& element, std::string_view key) -> std::string {
     const std::string name = element.attribute_or(key);
-    const bool is_known =
-        std::ranges::any_of(model.links, [&](const ModelLink& one) { return one.name == name; });
-    if (!is_known)
+    if (find_link(model, name) < 0)
       files.wrong(element, std::string(key) + ": there is no link \"" + printable(name, 60) + "\"");
     return name;
   };

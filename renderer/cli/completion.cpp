@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/cli/completion.h"
 
+#include "core/files/text.h"
 #include "renderer/cli/shell_quoted.h"
 
 namespace minkray {
 namespace {
-
-std::string joined(const std::vector<std::string>& words, const std::string& between) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
-  return text;
-}
 
 /// First sentence or line, which fits next to a name.
 std::string first_line(const std::string& doc) {
@@ -52,7 +47,7 @@ std::string bash_completion(std::span<const VerbDescription> verbs) {
       "  COMPREPLY=()\n"
       "  if ((COMP_CWORD == 1)); then\n"
       "    COMPREPLY=($(compgen -W " +
-      in_single_quotes(joined(names, " ") + " --help --version") +
+      in_single_quotes(listed(names, {}, " ") + " --help --version") +
       " -- \"$word\"))\n"
       "    return\n"
       "  fi\n"
@@ -64,18 +59,19 @@ std::string bash_completion(std::span<const VerbDescription> verbs) {
       for (const std::string& flag : option.flags)
         patterns.push_back(in_single_quotes(verb.name + " " + flag));
       if (patterns.empty()) continue;
-      text += "    " + joined(patterns, " | ") + ")\n      COMPREPLY=($(compgen -W " +
-              in_single_quotes(joined(option.choices, " ")) + " -- \"$word\"))\n      return ;;\n";
+      text += "    " + listed(patterns, {}, " | ") + ")\n      COMPREPLY=($(compgen -W " +
+              in_single_quotes(listed(option.choices, {}, " ")) +
+              " -- \"$word\"))\n      return ;;\n";
     }
   text += "  esac\n  case \"${COMP_WORDS[1]}\" in\n";
   for (const VerbDescription& verb : verbs)
-    text +=
-        "    " + verb.name + ") flags=" + in_single_quotes(joined(flags_of(verb), " ")) + " ;;\n";
+    text += "    " + verb.name + ") flags=" + in_single_quotes(listed(flags_of(verb), {}, " ")) +
+            " ;;\n";
   for (const VerbDescription& verb : verbs)
     for (const OptionDescription& option : verb.options)
       if (option.flags.empty() && !option.choices.empty())
         text += "  esac\n  case \"${COMP_WORDS[1]}\" in\n    " + verb.name +
-                ") flags+=" + in_single_quotes(" " + joined(option.choices, " ")) + " ;;\n";
+                ") flags+=" + in_single_quotes(" " + listed(option.choices, {}, " ")) + " ;;\n";
   return text +
          "  esac\n"
          "  COMPREPLY=($(compgen -W \"$flags\" -- \"$word\"))\n"
@@ -108,14 +104,15 @@ std::string zsh_completion(std::span<const VerbDescription> verbs) {
       std::string action;
       if (!option.value.empty())
         action = std::string(option.is_value_optional ? "::" : ":") + "value:" +
-                 (!option.choices.empty() ? "(" + joined(option.choices, " ") + ")"
+                 (!option.choices.empty() ? "(" + listed(option.choices, {}, " ") + ")"
                   : takes_file(option)    ? "_files"
                                           : " ");
       if (option.flags.empty()) {
-        text += " \\\n        " +
-                in_single_quotes(
-                    (option.is_repeated ? "*:" : ":") + option.place + ":" +
-                    (option.choices.empty() ? "_files" : "(" + joined(option.choices, " ") + ")"));
+        text +=
+            " \\\n        " +
+            in_single_quotes(
+                (option.is_repeated ? "*:" : ":") + option.place + ":" +
+                (option.choices.empty() ? "_files" : "(" + listed(option.choices, {}, " ") + ")"));
         continue;
       }
       for (const std::string& flag : option.flags)
@@ -145,7 +142,7 @@ std::string fish_completion(std::span<const VerbDescription> verbs) {
       if (!option.flags.empty() && !option.value.empty() && !option.is_value_optional)
         text += " -r";
       if (!option.choices.empty())
-        text += " -f -a " + in_single_quotes(joined(option.choices, " "));
+        text += " -f -a " + in_single_quotes(listed(option.choices, {}, " "));
       text += " -d " + in_single_quotes(first_line(option.doc)) + "\n";
     }
   return text;

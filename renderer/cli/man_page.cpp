@@ -46,9 +46,8 @@ std::string synopsis(const VerbDescription& verb) {
 std::string entry(const OptionDescription& option) {
   std::string text = ".TP\n.B " + roff(name_of(option)) + "\n";
   if (!option.value.empty() && !option.flags.empty()) {
-    std::string values;
-    for (const std::string& choice : option.choices) values += (values.empty() ? "" : "|") + choice;
-    if (values.empty()) values = option.value;
+    const std::string values =
+        option.choices.empty() ? option.value : listed(option.choices, {}, "|");
     text = ".TP\n.BR \"" + roff(name_of(option)) + "\" \" " +
            roff(option.is_value_optional ? "[=" + values + "]" : values) + "\"\n";
   }

@@ -54,10 +54,10 @@ std::string surface_as_text(const MeshFacts& facts) {
 }
 
 std::string counted(const std::map<std::string, std::size_t>& counts) {
-  std::string text;
-  for (const auto& [name, count] : counts)
-    text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + printable(name, 40);
-  return text.empty() ? "none" : text;
+  if (counts.empty()) return "none";
+  return listed(counts, [](const auto& one) {
+    return std::to_string(one.second) + " " + printable(one.first, 40);
+  });
 }
 
 }  // namespace

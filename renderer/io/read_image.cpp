@@ -148,13 +148,6 @@ GreyLevels levels_of(const Codes<Code>& read) {
   return grey;
 }
 
-std::string lower_ending(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
-
 bool has_codes(std::string_view ending) {
   return ending == ".png" || ending == ".jpg" || ending == ".jpeg";
 }

@@ -38,9 +38,7 @@ std::map<std::string, double> inflated(const std::vector<std::string>& texts, co
     const std::string name = text.substr(0, equals);
     const double radius =
         equals == text.npos ? -1 : finite_number(text.substr(equals + 1)).value_or(-1);
-    const bool is_link =
-        std::ranges::any_of(model.links, [&](const ModelLink& link) { return link.name == name; });
-    if (!is_link || radius < 0)
+    if (find_link(model, name) < 0 || radius < 0)
       throw BadInput("--inflate: must be LINK=RADIUS of a link of the robot (got \"" +
                      printable(text, 80) + "\")");
     if (!radii.emplace(name, radius).second)

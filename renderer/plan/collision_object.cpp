@@ -2,9 +2,9 @@
 #include "renderer/plan/collision_object.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
+#include "core/files/text.h"
 #include "renderer/import/mesh/geometry_common.h"
 #include "renderer/import/model/orientation.h"
 #include "renderer/json/object_reader.h"
@@ -33,10 +33,7 @@ const Primitive primitives[] = {
 const Primitive* primitive_of(const Json& type) {
   for (const Primitive& one : primitives) {
     if (type.is_number() && type.get<double>() == one.number) return &one;
-    if (!type.is_string()) continue;
-    std::string text = type.text();
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (text == one.name) return &one;
+    if (type.is_string() && lower_case(type.text()) == one.name) return &one;
   }
   return nullptr;
 }

@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 
+#include "core/files/regular_file.h"
 #include "renderer/base/csv.h"
 #include "renderer/import/import.h"
 #include "renderer/json/parse.h"
@@ -13,11 +14,6 @@
 
 namespace minkray {
 namespace {
-
-bool ends_with_any(const std::string& file, std::initializer_list<std::string_view> endings) {
-  return std::ranges::any_of(endings,
-                             [&](std::string_view ending) { return file.ends_with(ending); });
-}
 
 Trajectory read_npy_rows(const std::string& file, const Model& model,
                          const std::vector<std::string>& columns, Mistakes& mistakes) {
@@ -61,7 +57,7 @@ Trajectory read_npy_rows(const std::string& file, const Model& model,
 bool gives_times(const std::string& file) {
   Mistakes ignored(file);
   const std::string text = read_text_file(file, ignored).value_or("");
-  if (!ends_with_any(file, {".csv", ".CSV"})) return text.find("\"time\"") != text.npos;
+  if (lower_ending(file) != ".csv") return text.find("\"time\"") != text.npos;
   const CsvLines lines(text);
   return std::ranges::find(lines.cells(), "time") != lines.cells().end();
 }
@@ -151,7 +147,8 @@ std::vector<std::vector<double>> in_order(const Model& model, const JointValues&
 }  // namespace
 
 bool is_table(const std::string& file) {
-  return ends_with_any(file, {".csv", ".npy", ".CSV", ".NPY"});
+  const std::string ending = lower_ending(file);
+  return ending == ".csv" || ending == ".npy";
 }
 
 bool is_table(const Json& json, const Model& model) {
@@ -170,7 +167,7 @@ bool is_table(const Json& json, const Model& model) {
 
 Trajectory read_table(const std::string& file, Model& model,
                       const std::vector<std::string>& columns, Mistakes& mistakes) {
-  if (ends_with_any(file, {".npy", ".NPY"})) return read_npy_rows(file, model, columns, mistakes);
+  if (lower_ending(file) == ".npy") return read_npy_rows(file, model, columns, mistakes);
   Trajectory trajectory;
   Mistakes of_file("");
   trajectory.rows = read_joint_rows(file, model, of_file, "", 1);

@@ -43,10 +43,10 @@ class MeaningReader {
 
   int link(const XmlElement& element, std::string_view key) {
     const std::string name = element.attribute_or(key);
-    for (std::size_t i = 0; i < model_.links.size(); ++i)
-      if (model_.links[i].name == name) return static_cast<int>(i);
-    note(element, std::string(key) + ": there is no link \"" + printable(name, 60) + "\"");
-    return -1;
+    const int link = find_link(model_, name);
+    if (link < 0)
+      note(element, std::string(key) + ": there is no link \"" + printable(name, 60) + "\"");
+    return link;
   }
 
   void add_virtual_joint(const XmlElement& element) {

@@ -12,19 +12,13 @@
 namespace minkray {
 namespace {
 
-int link_of(const Model& model, const std::string& name) {
-  for (std::size_t i = 0; i < model.links.size(); ++i)
-    if (model.links[i].name == name) return static_cast<int>(i);
-  return -1;
-}
-
 /// Pose of a frame in the world; nothing if no frame has that name.
 std::optional<Affine<double>> frame_of(const std::string& name, const PlanningScene& scene,
                                        const Model& model,
                                        const std::vector<Affine<double>>& links) {
   if (const auto fixed = scene.fixed_frames.find(name); fixed != scene.fixed_frames.end())
     return fixed->second;
-  if (const int link = link_of(model, name); link >= 0)
+  if (const int link = find_link(model, name); link >= 0)
     return links[static_cast<std::size_t>(link)];
   if (name.empty() || name == "world" || name == "map") return Affine<double>();
   return std::nullopt;
@@ -133,7 +127,7 @@ void add_to_model(const PlanningScene& scene, Model& model, Mistakes& mistakes) 
   std::vector<std::string> names;
   for (const ModelLink& link : model.links) names.push_back(link.name);
   for (const PlannedObject& object : scene.objects) {
-    if (!scene.matrix.empty() && link_of(model, object.id) >= 0)
+    if (!scene.matrix.empty() && find_link(model, object.id) >= 0)
       mistakes.add(
           "object \"" + printable(object.id, 60) +
           "\": id: must not be the name of a link: allowed_collision_matrix has names only");
@@ -155,13 +149,13 @@ void add_to_model(const PlanningScene& scene, Model& model, Mistakes& mistakes) 
   }
   for (const PlannedObject& object : scene.attached) {
     // Pairs are allowed by name.
-    if (link_of(model, object.id) >= 0 ||
+    if (find_link(model, object.id) >= 0 ||
         std::ranges::find(scene.objects, object.id, &PlannedObject::id) != scene.objects.end()) {
       mistakes.add("attached object \"" + printable(object.id, 60) +
                    "\": id: must not be the name of a link or of another object");
       continue;
     }
-    const int parent = link_of(model, object.carrier);
+    const int parent = find_link(model, object.carrier);
     if (parent < 0) {
       mistakes.add("attached object \"" + printable(object.id, 60) +
                    "\": link_name: there is no link \"" + printable(object.carrier, 60) + "\" (" +

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <string>
+
+#include "core/files/text.h"
 
 namespace minkray {
 namespace {
@@ -99,15 +100,6 @@ constexpr LidarModel models[] = {
     {"OS1-64", os1_64, 1024}, {"Mid-360", {}, 20000},
 };
 
-/// Letters and digits of a name, in lower case.
-std::string plain_name(std::string_view name) {
-  std::string letters;
-  for (const char c : name)
-    if (std::isalnum(static_cast<unsigned char>(c)))
-      letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return letters;
-}
-
 }  // namespace
 
 std::span<const LidarModel> lidar_models() {
@@ -116,7 +108,7 @@ std::span<const LidarModel> lidar_models() {
 
 const LidarModel* lidar_model(std::string_view name) {
   const auto found = std::ranges::find_if(
-      models, [&](const LidarModel& model) { return plain_name(model.name) == plain_name(name); });
+      models, [&](const LidarModel& model) { return letters_of(model.name) == letters_of(name); });
   return found == std::end(models) ? nullptr : &*found;
 }
 

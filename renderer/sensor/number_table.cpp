@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/sensor/number_table.h"
 
-#include <cctype>
-
 #include "renderer/base/csv.h"
 #include "renderer/json/parse.h"
 
@@ -11,14 +9,6 @@ namespace {
 
 /// Limit of mistakes: files with more repeat the same one.
 constexpr std::size_t most_mistakes = 20;
-
-std::string letters_of(std::string_view title) {
-  std::string letters;
-  for (const char c : title)
-    if (std::isalnum(static_cast<unsigned char>(c)))
-      letters += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return letters;
-}
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/files/mtl_file.h"
+#include "core/files/text.h"
 #include "renderer/import/mesh/gltf_text.h"
 
 namespace minkray {
@@ -35,12 +36,6 @@ const XmlElement* parameter(const XmlElement& profile, const std::string& sid) {
   return nullptr;
 }
 
-std::string trimmed(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  if (begin == text.npos) return "";
-  return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
-}
-
 /// The image of a texture: via a sampler and a surface (1.4), via a sampler (1.5), or by its
 /// own name.
 const XmlElement* image_of(const XmlElement& profile, const std::string& name,
@@ -51,17 +46,18 @@ const XmlElement* image_of(const XmlElement& profile, const std::string& name,
   if (const XmlElement* instance = sampler->child("instance_image"))
     return target(*instance, "url");
   const XmlElement* source = sampler->child("source");
-  const XmlElement* surface = source ? parameter(profile, trimmed(source->text)) : nullptr;
+  const XmlElement* surface =
+      source ? parameter(profile, std::string(without_blanks(source->text))) : nullptr;
   surface = surface ? surface->child("surface") : nullptr;
   const XmlElement* from = surface ? surface->child("init_from") : nullptr;
-  return from ? with_id(trimmed(from->text)) : nullptr;
+  return from ? with_id(std::string(without_blanks(from->text))) : nullptr;
 }
 
 std::filesystem::path file_of_image(const XmlElement& image, const std::filesystem::path& folder) {
   const XmlElement* from = image.child("init_from");
   if (!from) return {};
   const XmlElement* ref = from->child("ref");
-  std::string uri = trimmed(ref ? ref->text : from->text);
+  std::string uri(without_blanks(ref ? ref->text : from->text));
   if (uri.empty()) return {};
   if (uri.starts_with("file://")) uri = uri.substr(std::string_view("file://").size());
   return picture_file(folder, percent_decoded(uri));

@@ -2,11 +2,11 @@
 #include "renderer/import/mesh/mesh_library.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <exception>
 #include <stdexcept>
 
+#include "core/files/regular_file.h"
 #include "core/files/text.h"
 #include "renderer/base/hash.h"
 #include "renderer/base/of_file.h"
@@ -23,12 +23,6 @@ namespace {
 /// meshes may have more: Qhull takes up to 50 us for a vertex.
 constexpr std::size_t most_scales = 8;
 constexpr std::size_t most_rescaled_vertices = 1'000'000;
-
-std::string lower_ending(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
-}
 
 const MeshFormatReader* format_of(const std::filesystem::path& file) {
   for (const MeshFormatReader& format : mesh_formats())

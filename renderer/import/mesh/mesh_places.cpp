@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "core/files/text.h"
 #include "renderer/import/model/xml.h"
 #include "renderer/json/mistakes.h"
 
@@ -22,10 +23,7 @@ std::string package_name(const std::filesystem::path& folder) {
   XmlFiles files(ignored);
   const auto root = files.read(file);
   const XmlElement* name = root && root->name == "package" ? root->child("name") : nullptr;
-  if (!name) return "";
-  const std::size_t begin = name->text.find_first_not_of(" \t\r\n");
-  if (begin == name->text.npos) return "";
-  return name->text.substr(begin, name->text.find_last_not_of(" \t\r\n") - begin + 1);
+  return name ? std::string(without_blanks(name->text)) : "";
 }
 
 }  // namespace

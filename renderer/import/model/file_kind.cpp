@@ -44,12 +44,6 @@ constexpr Signature endings[] = {
     {".py", "a Python program"},
 };
 
-std::string lower_ending(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return ending;
-}
-
 FileContent by_ending(const std::filesystem::path& file) {
   const std::string ending = lower_ending(file);
   for (const std::string_view one : {".gltf", ".glb"})

@@ -126,6 +126,11 @@ JointsByName joints_by_name(Model& model) {
   return joints;
 }
 
+int find_link(const Model& model, std::string_view name) {
+  const auto link = std::ranges::find(model.links, name, &ModelLink::name);
+  return link == model.links.end() ? -1 : static_cast<int>(link - model.links.begin());
+}
+
 ModelJoint* find_joint(Model& model, const std::string& name) {
   for (ModelLink& link : model.links)
     for (ModelJoint& joint : link.joints)

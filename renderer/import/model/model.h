@@ -134,6 +134,9 @@ std::vector<Affine<double>> link_poses(const Model& model);
 using JointsByName = std::unordered_map<std::string_view, ModelJoint*>;
 JointsByName joints_by_name(Model& model);
 
+/// The index of the link of that name; -1 if there is none.
+int find_link(const Model& model, std::string_view name);
+
 /// The joint of that name, or null.
 ModelJoint* find_joint(Model& model, const std::string& name);
 

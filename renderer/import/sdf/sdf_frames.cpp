@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/files/text.h"
 #include "renderer/import/model/orientation.h"
 
 namespace minkray {
@@ -56,10 +57,7 @@ std::string sdf_text(const XmlElement& element, std::string_view key) {
 }
 
 std::string sdf_text(const XmlElement& element) {
-  const std::string& text = element.text;
-  const std::size_t begin = text.find_first_not_of(" \t\r\n");
-  if (begin == text.npos) return "";
-  return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
+  return std::string(without_blanks(element.text));
 }
 
 SdfFrames::SdfFrames(const XmlElement& model, XmlFiles& files) : model_(model), files_(files) {
