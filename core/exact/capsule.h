@@ -47,8 +47,8 @@ struct CapsuleForm : FormDefaults {
     const Mask<W> by_side = round.hit & (beyond <= W(0));
     entry.hit = by_side;
     entry.t = round.in;
-    entry.e = W(2) * round.e;
-    entry.normal = select<W>(by_side, round.normal(-1, r, line), entry.normal);
+    entry.e = W(2) * round.in_e;
+    entry.normal = select<W>(by_side, round.normal_in(line), entry.normal);
     // At a distance w from the circle where cylinder and ball meet, their formulas differ by w^2 /
     // 2r across the ray. So the result is undecided only if w^2 > E r and the line enters within w
     // of that circle.

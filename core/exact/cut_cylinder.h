@@ -75,14 +75,14 @@ struct CutCylinderForm : FormDefaults {
     if (!any(round.hit)) return entry;
     const Cut<W> low(&sizes[3], sizes[1], line), high(&sizes[6], sizes[2], line);
     const W t = max(round.in, max(low.in, high.in));
-    const W lo = max(W(round.in - round.e), max(W(low.in - low.e), W(high.in - high.e)));
-    const W hi = max(W(round.in + round.e), max(W(low.in + low.e), W(high.in + high.e)));
-    const W out_lo = min(W(round.out - round.e), min(W(low.out - low.e), W(high.out - high.e)));
-    const W out_hi = min(W(round.out + round.e), min(W(low.out + low.e), W(high.out + high.e)));
+    const W lo = max(W(round.in - round.in_e), max(W(low.in - low.e), W(high.in - high.e)));
+    const W hi = max(W(round.in + round.in_e), max(W(low.in + low.e), W(high.in + high.e)));
+    const W out_lo = min(W(round.out - round.out_e), min(W(low.out - low.e), W(high.out - high.e)));
+    const W out_hi = min(W(round.out + round.out_e), min(W(low.out + low.e), W(high.out + high.e)));
     entry.hit = round.hit & (hi <= out_lo);
     entry.t = t;
     entry.e = max(hi - t, t - lo);
-    const Vec3<W> side = round.normal(-1, r, line);
+    const Vec3<W> side = round.normal_in(line);
     const auto either = [&](const Mask<W>& by_low, const Mask<W>& by_high, const Vec3<W>& by_side) {
       return select<W>(by_low, low.normal, select<W>(by_high, high.normal, by_side));
     };
@@ -92,7 +92,7 @@ struct CutCylinderForm : FormDefaults {
       // The surfaces that prove the miss, chosen by the bounds.
       const Vec3<W> entered = either(low.in - low.e == lo, high.in - high.e == lo, side);
       const Vec3<W> left =
-          either(low.out + low.e == out_hi, high.out + high.e == out_hi, round.normal(1, r, line));
+          either(low.out + low.e == out_hi, high.out + high.e == out_hi, round.normal_out(line));
       entry.normal = select<W>(passes, between(entered, left, line.d), entry.normal);
       entry.miss |= passes;
     }

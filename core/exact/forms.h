@@ -16,6 +16,7 @@
 #include "core/exact/frustum.h"
 #include "core/exact/polytope_form.h"
 #include "core/exact/rounded_box.h"
+#include "core/exact/rounded_frustum.h"
 #include "core/exact/tapered_capsule.h"
 #include "core/exact/turned_capsule.h"
 
@@ -41,6 +42,7 @@ using Forms = FormList<  //
     TaperedCapsuleForm,  //
     FrustumForm,         //
     CutCylinderForm,     //
+    RoundedFrustumForm,  //
     TurnedCapsuleForm,   //
     PolytopeForm>;
 

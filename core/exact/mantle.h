@@ -9,16 +9,16 @@ namespace minkray::exact {
 
 template <class W>
 struct Mantle {
-  Mask<W> hit, miss;  ///< neither: undecided
-  W in, out, e;       ///< parameters of entry and exit, and the error of both
-  W x, y;             ///< point of the line closest to the axis
-  W half;             ///< parameter difference from that point to the entry or exit
+  Mask<W> hit, miss;       ///< neither: undecided
+  W in, in_e, out, out_e;  ///< parameters of entry and exit, and their errors
+  W r;
+  W x, y;  ///< point of the line closest to the axis
+  W half;  ///< parameter difference from that point to the entry or exit
 
   template <class S>
-  Mantle(const S& size, const Line<W>& line, const Mask<W>& open) {
+  Mantle(const S& radius, const Line<W>& line, const Mask<W>& open) : r(radius) {
     using std::max;
     using std::sqrt;
-    const W r(size);
     const Vec3<W>&s = line.s, &d = line.d;
     const W across = d.x() * d.x() + d.y() * d.y();
     const Mask<W> along = across < line.parallel;
@@ -32,12 +32,22 @@ struct Mantle {
     half = sqrt(max(h2, margin) * inv);
     in = k - half;
     out = k + half;
-    e = line.E * r * inv / half;
+    in_e = out_e = line.E * r * inv / half;
   }
-  /// Outward unit normal where the line enters (sign = -1) or leaves (sign = 1).
-  template <class S>
-  Vec3<W> normal(int sign, const S& r, const Line<W>& line) const {
-    const W at = half * W(Lane<W>(sign)), per_r = W(1) / W(r);
+
+  /// Outward unit normals where the line enters and leaves.
+  Vec3<W> normal_in(const Line<W>& line) const { return normal(-half, line); }
+  Vec3<W> normal_out(const Line<W>& line) const { return normal(half, line); }
+
+  /// For a line that misses: the normal of the plane that touches the cylinder.
+  Vec3<W> separating(const Line<W>&) const { return {x, y, W(0)}; }
+
+  /// Unlike a cone, a cylinder has no part that does not belong to the form.
+  Mask<W> is_above(const Line<W>&) const { return Mask<W>(false); }
+
+ private:
+  Vec3<W> normal(const W& at, const Line<W>& line) const {
+    const W per_r = W(1) / r;
     return {(x + line.d.x() * at) * per_r, (y + line.d.y() * at) * per_r, W(0)};
   }
 };

@@ -38,17 +38,18 @@ struct Nappe {
   W in, in_e, out, out_e;  ///< parameters of entry and exit, and their errors; -endless or
                            ///< endless if there is no entry or exit
 
-  template <class S>
-  Nappe(const S& slope, const S& apex, const S& R, const Line<W>& line, const Mask<W>& open)
-      : slope_(slope) {
+  /// The form has members slope, sine and R.
+  template <class Numbers, class S>
+  Nappe(const Numbers& form, const S& apex, const Line<W>& line, const Mask<W>& open)
+      : slope_(form.slope), sine_(form.sine), apex_(apex) {
     using std::abs;
     using std::copysign;
     using std::max;
     using std::min;
     using std::sqrt;
-    const W square = slope_ * slope_, size = max(W(R), W(apex));
+    const W square = slope_ * slope_, R(form.R), size = max(R, apex_);
     const Vec3<W>& d = line.d;
-    const Vec3<W> p(line.s.x(), line.s.y(), line.s.z() - W(apex));
+    const Vec3<W> p(line.s.x(), line.s.y(), line.s.z() - apex_);
     // The quadratic's discriminant, from the line's moment: b^2 - ac would cancel.
     moment_ = p.cross(d);
     const W D = square * (moment_.x() * moment_.x() + moment_.y() * moment_.y()) -
@@ -66,7 +67,7 @@ struct Nappe {
     const W c = p.x() * p.x() + p.y() * p.y() - square * p.z() * p.z();
     const W root = sqrt(max(D, margin)), q = -(b + copysign(root, b));
     const W t1 = q / a, t2 = c / q;
-    const W per_R = length * (W(1) / W(R)), base = W(2) * size * (W(1) + square) * line.E / root;
+    const W per_R = length * (W(1) / R), base = W(2) * size * (W(1) + square) * line.E / root;
     const W w1 = W(1) + abs(t1) * per_R, w2 = W(1) + abs(t2) * per_R;
     const W e1 = base * w1 * w1, e2 = base * w2 * w2;
     // A steep line crosses the surface once in each nappe. A line that goes down enters the lower
@@ -81,20 +82,13 @@ struct Nappe {
     out_e = select(leaves, select(in_first, e2, e1), W(0));
   }
 
-  /// Outward normal of unit length at the parameter t.
-  template <class S>
-  Vec3<W> normal(const W& t, const S& sine, const Line<W>& line) const {
-    using std::max;
-    using std::sqrt;
-    const W x = line.s.x() + t * line.d.x(), y = line.s.y() + t * line.d.y();
-    const W per = (W(sine) / slope_) / sqrt(max(W(x * x + y * y), W(least_component<W>)));
-    return {x * per, y * per, W(sine)};
-  }
+  /// Outward unit normals where the line enters and leaves.
+  Vec3<W> normal_in(const Line<W>& line) const { return normal(in, line); }
+  Vec3<W> normal_out(const Line<W>& line) const { return normal(out, line); }
 
   /// True for lines that enter and leave the nappe above the apex, which is not part of the form.
-  template <class S>
-  Mask<W> is_above(const S& apex, const Line<W>& line) const {
-    return hit & (a_ > W(0)) & (line.s.z() + out * line.d.z() > W(apex));
+  Mask<W> is_above(const Line<W>& line) const {
+    return hit & (a_ > W(0)) & (line.s.z() + out * line.d.z() > apex_);
   }
 
   /// For a line that misses both nappes or crosses only the upper one: the normal of the plane that
@@ -110,7 +104,15 @@ struct Nappe {
   }
 
  private:
-  W slope_;
+  Vec3<W> normal(const W& t, const Line<W>& line) const {
+    using std::max;
+    using std::sqrt;
+    const W x = line.s.x() + t * line.d.x(), y = line.s.y() + t * line.d.y();
+    const W per = (sine_ / slope_) / sqrt(max(W(x * x + y * y), W(least_component<W>)));
+    return {x * per, y * per, sine_};
+  }
+
+  W slope_, sine_, apex_;
   Vec3<W> moment_;
   W a_;
 };

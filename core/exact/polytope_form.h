@@ -9,7 +9,7 @@ namespace minkray::exact {
 
 /// Sizes, for triangles: three corners, rounding radius. Hulls have none.
 struct PolytopeForm : FormDefaults {
-  static constexpr FormKind kind{10};
+  static constexpr FormKind kind{11};
   static constexpr Lanes lanes = Lanes::planes;
 
   /// The form of triangles is for rounded triangles.

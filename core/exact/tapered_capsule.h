@@ -55,7 +55,7 @@ struct TaperedCapsuleForm : FormDefaults {
                &apex = form.sizes[3];
     const Vec3<W>&s = line.s, &d = line.d;
     Entry<W> entry;
-    const Nappe<W> round(form.slope, apex, form.R, line, open);
+    const Nappe<W> round(form, apex, line, open);
     entry.miss = round.miss;
     if (any(round.miss)) entry.normal = round.separating(line);
     if (!any(round.hit)) return entry;
@@ -67,8 +67,7 @@ struct TaperedCapsuleForm : FormDefaults {
     entry.hit = by_side;
     entry.t = round.in;
     entry.e = W(2) * round.in_e;
-    if (any(by_side))
-      entry.normal = select<W>(by_side, round.normal(round.in, form.sine, line), entry.normal);
+    if (any(by_side)) entry.normal = select<W>(by_side, round.normal_in(line), entry.normal);
     // Undecided for the same reason as for a capsule (core/exact/capsule.h).
     const W w2 = entry.e * entry.e * line.dd;
     const W from_low = z - low, from_high = z - high;
@@ -80,7 +79,7 @@ struct TaperedCapsuleForm : FormDefaults {
       const W r = select(above, W(upper), W(lower));
       const W middle = select(above, W(half_height), W(-half_height));
       const Vec3<W> p(s.x(), s.y(), s.z() - middle);
-      const Mask<W> passes = enter_end(entry, by_end, r, p, line) & round.is_above(apex, line);
+      const Mask<W> passes = enter_end(entry, by_end, r, p, line) & round.is_above(line);
       if (any(passes)) entry.normal = select<W>(passes, round.separating(line), entry.normal);
     }
     entry.hit &= !unsure;

@@ -10,7 +10,7 @@ namespace minkray::exact {
 /// Sizes: half the vector from end to end, radius. After preparation: radius, half height, and the
 /// capsule's z and x axes.
 struct TurnedCapsuleForm : FormDefaults {
-  static constexpr FormKind kind{9};
+  static constexpr FormKind kind{10};
   static constexpr bool is_round = true;
 
   /// The form of segments is for rounded segments.

@@ -238,14 +238,77 @@ Interval in(const Superellipsoid& s, const V& o, const V& d) {
   return {root(around.lower), root(around.upper)};
 }
 
-/// Boxes, as the union of boxes grown along one axis, cylinders around edges and balls at corners;
-/// balls and capsules, as themselves.
+/// The frustum's point in the plane of q, the distance from the axis, and z that is nearest to
+/// (q, z).
+std::array<Long, 2> nearest_of(const Frustum& s, Long q, Long z) {
+  const Long h = s.half_height, r0 = s.radii[0], r1 = s.radii[1];
+  const Long way_q = r1 - r0, way_z = 2 * h, length = std::hypot(way_q, way_z);
+  // Positive beyond the side.
+  const Long beyond =
+      length > 0 ? ((q - r0) * way_z - (z + h) * way_q) / length : q - std::max(r0, r1);
+  if (beyond <= 0 && std::abs(z) <= h) return {q, z};
+  std::array<Long, 2> best = {};
+  Long least = infinity;
+  const auto offer = [&](Long at_q, Long at_z) {
+    const Long away = std::hypot(q - at_q, z - at_z);
+    if (away < least) {
+      least = away;
+      best = {at_q, at_z};
+    }
+  };
+  offer(std::min(q, r0), -h);
+  offer(std::min(q, r1), h);
+  if (length > 0) {
+    const Long along = ((q - r0) * way_q + (z + h) * way_z) / (length * length);
+    const Long share = std::clamp<Long>(along, 0, 1);
+    offer(r0 + share * way_q, share * way_z - h);
+  }
+  return best;
+}
+
+/// By bisection: the distance from the frustum is convex along the line.
+Interval rounded(const Frustum& s, Long radius, const V& o, const V& d) {
+  const auto off = [&](Long t) -> V {
+    const V x = o + t * d;
+    const Long q = std::hypot(x.x(), x.y());
+    const auto [at_q, at_z] = nearest_of(s, q, x.z());
+    const Long out = q > 0 ? (q - at_q) / q : 0;
+    return {x.x() * out, x.y() * out, x.z() - at_z};
+  };
+  const Long reach =
+      std::hypot(std::max(s.radii[0], s.radii[1]), s.half_height) + radius + o.norm();
+  const Long middle = -o.dot(d) / d.squaredNorm(), around = 2 * reach / d.norm();
+  const auto bisect = [](Long before, Long after, const auto& is_before) {
+    for (int i = 0; i < 140; ++i) {
+      const Long between = (before + after) / 2;
+      (is_before(between) ? before : after) = between;
+    }
+    return after;
+  };
+  const auto is_outside = [&](Long t) { return off(t).norm() > radius; };
+  const Long nearest = bisect(middle - around, middle + around, [&](Long t) {
+    return off(t).dot(d) < 0 || (t < middle && off(t).norm() == 0);
+  });
+  if (is_outside(nearest)) return {};
+  return {bisect(middle - around, nearest, is_outside),
+          bisect(middle + around, nearest, is_outside)};
+}
+
+/// Cylinders, cones and frustums, by their distance; boxes, as the union of boxes grown along one
+/// axis, cylinders around edges and balls at corners; balls and capsules, as themselves.
 std::optional<Interval> in(const Rounded& s, const V& o, const V& d) {
   const Long r = s.radius;
   if (const auto* inner = std::get_if<Sphere>(&s.shape->kind))
     return ball(o, d, V::Zero(), inner->radius + r);
   if (const auto* point = std::get_if<Point>(&s.shape->kind))
     return ball(o, d, exact(point->position), r);
+  if (const auto* inner = std::get_if<Disk>(&s.shape->kind))
+    return rounded(Frustum{{inner->radius, inner->radius}, 0}, r, o, d);
+  if (const auto* inner = std::get_if<Cylinder>(&s.shape->kind))
+    return rounded(Frustum{{inner->radius, inner->radius}, inner->half_height}, r, o, d);
+  if (const auto* inner = std::get_if<Cone>(&s.shape->kind))
+    return rounded(Frustum{{inner->radius, 0}, inner->half_height}, r, o, d);
+  if (const auto* inner = std::get_if<Frustum>(&s.shape->kind)) return rounded(*inner, r, o, d);
   const auto* inner = std::get_if<Box>(&s.shape->kind);
   if (!inner) return std::nullopt;
   const V half = exact(inner->half_extents);

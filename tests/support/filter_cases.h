@@ -51,6 +51,14 @@ inline FilterGroup closed_forms() {
               {"upturned tapered capsule", TaperedCapsule{{0.1, 0.7}, 0.5}},
               {"rounded box", Rounded{0.2, box}},
               {"rounded plate", Rounded{0.1, Shape(Box{{1, 1, 0}})}},
+              {"rounded cylinder", Rounded{0.2, Shape(Cylinder{1, 0.7})}},
+              {"hardly rounded cylinder", Rounded{1e-3, Shape(Cylinder{0.5, 1})}},
+              {"much rounded cylinder", Rounded{3, Shape(Cylinder{0.5, 0.2})}},
+              {"rounded disk", Rounded{0.1, Shape(Disk{1})}},
+              {"rounded cone", Rounded{0.2, Shape(Cone{1, 1})}},
+              {"rounded flat cone", Rounded{0.05, Shape(Cone{2, 0.2})}},
+              {"rounded frustum", Rounded{0.3, Shape(Frustum{{1, 0.3}, 1})}},
+              {"rounded upturned frustum", Rounded{0.1, Shape(Frustum{{0.25, 1.5}, 0.5})}},
           },
           [](const PreparedShape& prepared) -> LineIn {
             return [inner = prepared.inner_shape()](const Vec3<Long>& at, const Vec3<Long>& along) {
