@@ -94,9 +94,9 @@ template <class W>
   const double radius = form.sizes[3], R = form.R;
   const W short_step(0x1p-36 * radius * radius);
   const W margin = W(4 * radius) * line.E;
-  // A plane along the surface's normal that is turned by an angle a to be parallel to the line
-  // moves by at most 2 a R near the form. Rounding of half_slope is below 3 E |d|, which moves the
-  // plane by 12 E R / 2 radius; rounding of its normal adds less.
+  // A plane across the normal, turned by an angle a to be parallel to the line, moves by at most
+  // 4 a R at the form. Rounding of half_slope is below 3 E |d|, which moves the plane by 12 E R / 2
+  // radius; rounding of its normal adds less.
   const W reach = W(R) * sqrt(line.inv), turned = W(8) * reach;
   const W plane_margin = margin + W(24 * R) * line.E;
   W t = max(from, -reach);
@@ -117,8 +117,8 @@ template <class W>
     const W way = select(falls & meets, W(p.square / (root - p.half_slope)),
                          W(-(p.half_slope + root) / p.curvature));
     t = select(going, W(t + way), t);
-    const Mask<W> settled = going & (way * way * line.dd < short_step);
-    arrived |= settled & meets;
+    const Mask<W> settled = going & meets & (way * way * line.dd < short_step);
+    arrived |= settled;
     going &= !settled;
     if (!any(going)) break;
     p = edge.at(t);

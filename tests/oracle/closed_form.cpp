@@ -266,7 +266,7 @@ std::array<Long, 2> nearest_of(const Frustum& s, Long q, Long z) {
   return best;
 }
 
-/// By bisection: the distance from the frustum is convex along the line.
+/// Bisection, since distances from the frustum are convex along the line.
 Interval rounded(const Frustum& s, Long radius, const V& o, const V& d) {
   const auto off = [&](Long t) -> V {
     const V x = o + t * d;
