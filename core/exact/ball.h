@@ -77,7 +77,8 @@ template <class W>
   using std::sqrt;
   const Vec3<W>& d = line.d;
   const W k = -p.dot(d) * line.inv;
-  const Vec3<W> x = p + d * k;
+  // Vectors are written number by number: GCC does not inline Eigen's expressions here.
+  const Vec3<W> x(p.x() + d.x() * k, p.y() + d.y() * k, p.z() + d.z() * k);
   const W h2 = r * r - x.squaredNorm(), margin = W(tolerance::form_tangent) * r * line.E;
   const Mask<W> hit = by_end & (h2 > margin), miss = by_end & (h2 < -margin);
   const W half = sqrt(max(h2, margin) * line.inv);
@@ -85,7 +86,10 @@ template <class W>
   entry.miss |= miss;
   entry.t = select(hit, W(k - half), entry.t);
   entry.e = select(hit, W(W(2) * r * line.E * line.inv / half), entry.e);
-  const Vec3<W> outward = select<W>(hit, Vec3<W>((x - d * half) * (W(1) / r)), x);
+  const W per_r = W(1) / r;
+  const Vec3<W> there((x.x() - d.x() * half) * per_r, (x.y() - d.y() * half) * per_r,
+                      (x.z() - d.z() * half) * per_r);
+  const Vec3<W> outward = select<W>(hit, there, x);
   entry.normal = select<W>(hit | miss, outward, entry.normal);
   return miss;
 }

@@ -36,17 +36,21 @@ struct Mantle {
   }
 
   /// Outward unit normals where the line enters and leaves.
-  Vec3<W> normal_in(const Line<W>& line) const { return normal(-half, line); }
-  Vec3<W> normal_out(const Line<W>& line) const { return normal(half, line); }
+  [[gnu::always_inline]] Vec3<W> normal_in(const Line<W>& line) const {
+    return normal(-half, line);
+  }
+  [[gnu::always_inline]] Vec3<W> normal_out(const Line<W>& line) const {
+    return normal(half, line);
+  }
 
   /// For a line that misses: the normal of the plane that touches the cylinder.
-  Vec3<W> separating(const Line<W>&) const { return {x, y, W(0)}; }
+  [[gnu::always_inline]] Vec3<W> separating(const Line<W>&) const { return {x, y, W(0)}; }
 
   /// Unlike a cone, a cylinder has no part that does not belong to the form.
   Mask<W> is_above(const Line<W>&) const { return Mask<W>(false); }
 
  private:
-  Vec3<W> normal(const W& at, const Line<W>& line) const {
+  [[gnu::always_inline]] Vec3<W> normal(const W& at, const Line<W>& line) const {
     const W per_r = W(1) / r;
     return {(x + line.d.x() * at) * per_r, (y + line.d.y() * at) * per_r, W(0)};
   }

@@ -83,8 +83,8 @@ struct Nappe {
   }
 
   /// Outward unit normals where the line enters and leaves.
-  Vec3<W> normal_in(const Line<W>& line) const { return normal(in, line); }
-  Vec3<W> normal_out(const Line<W>& line) const { return normal(out, line); }
+  [[gnu::always_inline]] Vec3<W> normal_in(const Line<W>& line) const { return normal(in, line); }
+  [[gnu::always_inline]] Vec3<W> normal_out(const Line<W>& line) const { return normal(out, line); }
 
   /// True for lines that enter and leave the nappe above the apex, which is not part of the form.
   Mask<W> is_above(const Line<W>& line) const {
@@ -93,7 +93,7 @@ struct Nappe {
 
   /// For a line that misses both nappes or crosses only the upper one: the normal of the plane that
   /// touches the cone and is parallel to the line.
-  Vec3<W> separating(const Line<W>& line) const {
+  [[gnu::always_inline]] Vec3<W> separating(const Line<W>& line) const {
     using std::copysign;
     using std::max;
     using std::sqrt;
@@ -104,7 +104,7 @@ struct Nappe {
   }
 
  private:
-  Vec3<W> normal(const W& t, const Line<W>& line) const {
+  [[gnu::always_inline]] Vec3<W> normal(const W& t, const Line<W>& line) const {
     using std::max;
     using std::sqrt;
     const W x = line.s.x() + t * line.d.x(), y = line.s.y() + t * line.d.y();
