@@ -15,10 +15,8 @@ bool asks_filter(const PreparedShape& shape, const CastOptions& options) {
          shape.definition().form().kind != FormKind::none;
 }
 
-/// Converts a certain result of the filter. For a miss, all numbers of t are set to 0.
-CastResult<double> result_of(const Filtered<double>& answer) {
-  CastResult<double> result;
-  write_result(answer, result);
+/// For a miss, sets all numbers of t to 0.
+CastResult<double>& cleared_if_missed(CastResult<double>& result) {
   if (result.status == Status::miss)
     result.t_base = result.t_offset = result.offset_lo = result.offset_hi = 0.0;
   return result;
@@ -28,7 +26,11 @@ CastResult<double> exit_by_any_stage(const PreparedShape& shape, const Ray<doubl
                                      const CastOptions& options) {
   if (asks_filter(shape, options)) {
     const Filtered<double> filtered = filter<true>(shape, ray, true);
-    if (filtered.is_certain()) return result_of(filtered);
+    CastResult<double> result;
+    if (filtered.is_certain()) {
+      write_result(filtered, result);
+      return cleared_if_missed(result);
+    }
   }
   return exit_by_later_stages(shape, ray, options);
 }
@@ -38,8 +40,9 @@ CastResult<double> exit_by_any_stage(const PreparedShape& shape, const Ray<doubl
 CastResult<double> cast_ray(const PreparedShape& shape, const Ray<double>& ray,
                             const CastOptions& options, const CastObserver& observer) {
   if (asks_filter(shape, options) && !observer) {
-    const Filtered<double> answer = filter<false>(shape, ray, true);
-    if (answer.is_certain()) return result_of(answer);
+    CastResult<double> result;
+    const FormPlace place(shape.definition(), shape.centre(), shape.linear_to_inner());
+    if (cast_by_form(place, ray, result)) return cleared_if_missed(result);
   }
   return cast_by_later_stages(shape, ray, options, observer);
 }

@@ -45,6 +45,10 @@ CastResult<double> ask_stages(const StageQuestion& question) {
       case Stage::filter:  // already run on the original ray
       case Stage::bounds:
         continue;
+      case Stage::operands:
+        if (question.observer) continue;
+        if (judge.accepts(ask_operands(question))) return judge.verdict();
+        continue;
       case Stage::model:
       case Stage::support_portal:
         if (judge.accepts(ask_model(stage, question))) return judge.verdict();

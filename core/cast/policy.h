@@ -15,6 +15,7 @@ enum class Stage : unsigned char {
   none,
   filter,          ///< the closed form, in double, with an error bound (filter.h)
   bounds,          ///< the bounding box; can decide only misses
+  operands,        ///< for a sum of two operands: their first contact (core/pair_motion)
   model,           ///< the hull of the features that support calls have found (core/model)
   gjk,             ///< the GJK ray cast
   support_portal,  ///< same as `model`, but treats every shape as a polytope
@@ -62,7 +63,7 @@ inline constexpr auto always = Proof::all;
 
 inline constexpr std::array policies = {
     Policy{Kind::automatic, with_form, steep, {filter, bounds, model, gjk, support_portal, finer}},
-    Policy{Kind::automatic, with_model, steep, {bounds, model, gjk, support_portal, finer}},
+    Policy{Kind::automatic, with_model, steep, {bounds, operands, model, gjk, support_portal, finer}},
     Policy{Kind::automatic, osculated, steep, {gjk, model, support_portal, finer}},
     Policy{Kind::automatic, extreme, always, {model, gjk, finer}},
     Policy{Kind::jet, ordinary, steep, {bounds, model, gjk, support_portal, finer}},

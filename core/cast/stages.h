@@ -16,6 +16,10 @@ struct StageQuestion {
   const CastObserver& observer;
 };
 
+/// Runs Stage::operands, which has no iterations to observe. Returns `exhausted` if the shape has no
+/// two operands, if the ray begins in the shape or after it, and if rounding leaves the contact open.
+CastResult<double> ask_operands(const StageQuestion& question);
+
 /// Runs Stage::model or Stage::support_portal.
 CastResult<double> ask_model(Stage stage, const StageQuestion& question);
 

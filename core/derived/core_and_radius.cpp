@@ -299,8 +299,12 @@ CoreAndRadius find(const Shape& shape, const ComposedMap& map, double radius) {
 
 }  // namespace
 
+CoreAndRadius core_and_radius(const Shape& shape, const ComposedMap& map) {
+  return find(shape, map, 0);
+}
+
 CoreAndRadius core_and_radius(const Shape& shape, const Affine<double>& map) {
-  return find(shape, ComposedMap(map), 0);
+  return core_and_radius(shape, ComposedMap(map));
 }
 
 }  // namespace minkray

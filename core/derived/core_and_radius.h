@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/shape/shape.h"
+#include "core/support/composed_map.h"
 
 namespace minkray {
 
@@ -54,6 +55,7 @@ struct CoreAndRadius {
 /// and Minkowski sums with points and balls become part of the radius or the pose. Maps that change
 /// angles give a core of the kind `other`, except for points, balls and hulls, and for boxes and
 /// ellipsoids that are scaled along their axes.
+CoreAndRadius core_and_radius(const Shape& shape, const ComposedMap& map);
 CoreAndRadius core_and_radius(const Shape& shape, const Affine<double>& map = {});
 
 }  // namespace minkray

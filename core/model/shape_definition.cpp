@@ -7,6 +7,7 @@
 #include "core/derived/proportions.h"
 #include "core/derived/recentred.h"
 #include "core/derived/shape_bounds.h"
+#include "core/derived/sum_of_cores.h"
 #include "core/exact/ball.h"
 #include "core/query/tolerances.h"
 
@@ -103,6 +104,11 @@ ShapeDefinition::ShapeDefinition(Shape shape) : original_(shape), inner_(std::mo
     ellipsoid_sum_ = touching_sum<double>(inner_, Vec3<double>(0.0, 0.0, 1.0));
   is_extreme_ = has_extreme_proportions(inner_);
   if (!is_extreme_) form_ = form_of(inner_, ball_.centre);
+  // The models of these two kinds take one or two steps.
+  const bool has_fast_model = model_ == ModelKind::ellipsoid_sum || model_ == ModelKind::translates;
+  if (!is_extreme_ && form_.kind == FormKind::none && !has_fast_model)
+    if (std::optional<SumOfCores> operands = sum_of_cores(inner_))
+      operands_ = std::make_shared<const SumOfCores>(*std::move(operands));
   is_plain_ = outer_.is_identity() && moved_.is_zero() && up_ == 1.0;
   is_round_ = form_.kind == exact::BallForm::kind && !form_.is_scaled && !form_.is_off_centre &&
               ball_.centre.isZero(0);

@@ -16,6 +16,8 @@
 
 namespace minkray {
 
+struct SumOfCores;
+
 /// Immutable. "Inner" refers to the shape without its outer transforms, and to its frame.
 class ShapeDefinition {
  public:
@@ -29,6 +31,9 @@ class ShapeDefinition {
   ModelKind model() const { return model_; }
   /// Represents the inner shape exactly, if model() is ellipsoid_sum.
   const EllipsoidSum<double>& ellipsoid_sum() const { return ellipsoid_sum_; }
+  /// The inner shape's two operands, or null. Extreme shapes have none, nor do shapes with a closed
+  /// form or a faster model.
+  const SumOfCores* operands() const { return operands_.get(); }
   /// True if each result of a cast at the shape must be proven, in double, before it is returned.
   bool is_extreme() const { return is_extreme_; }
   /// The inner shape's closed form, if it declares one. Extreme shapes have none.
@@ -49,6 +54,7 @@ class ShapeDefinition {
   /// True if rays can be cast at the shape in packets.
   bool has_packets() const {
     if (form_.kind != FormKind::none) return true;  // an extreme shape has none
+    if (operands_) return false;                    // single casts take fewer steps
     return !is_extreme_ && !has_large_loss() && model_ != ModelKind::osculating_sums;
   }
 
@@ -102,6 +108,7 @@ class ShapeDefinition {
   Vec3<double> half_extents_;
   ModelKind model_;
   EllipsoidSum<double> ellipsoid_sum_;
+  std::shared_ptr<const SumOfCores> operands_;
   double uncertain_slope_;
   double support_loss_;
   double plain_loss_ = 0.0;

@@ -21,13 +21,15 @@ struct CorePair {
   Mat3<double> turn;  ///< rotation from B's frame to A's frame
   Vec3<double> x;     ///< B's middle in A's frame
   double loss = 0;    ///< error bound of x: rounding of the bodies' positions
+  /// Bound of the other rounding errors, relative to the sizes and the distance.
+  double relative_rounding = core_rounding;
 
   /// Sum of the radii of the cores' bounding balls. Rounding errors are relative to this sum.
   double size() const { return a.ball + b.ball; }
   /// Sum of the radii by which the cores are grown.
   double radii() const { return a.radius + b.radius; }
   /// Error bound of a gap between the shapes (cores grown by their radii).
-  double rounding() const { return core_rounding * (size() + radii() + x.norm()) + loss; }
+  double rounding() const { return relative_rounding * (size() + radii() + x.norm()) + loss; }
   /// Converts a direction from A's frame to B's frame.
   Vec3<double> to_b(const Vec3<double>& d) const { return turn.transpose() * d; }
 };

@@ -90,7 +90,7 @@ class SlidingPortal {
       S.add(-of_radius, query_.e0.dot(nd) * inverse, query_.e1.dot(nd) * inverse);
       if (are_level() && p * p + q * q <= stationary * stationary * query_.size * query_.size) {
         if (settle(nd, is_known)) return true;
-        if (is_known && count_ < 3) return false;
+        if (is_known && count_ < 3 && query_.near > 0) return false;
       }
       if (!is_known) {
         if (count_ == 4) return false;
@@ -110,6 +110,9 @@ class SlidingPortal {
   /// Distance of the weighted point from the line of motion at the best normal, relative to the
   /// size. The bound's error is of the order of its square.
   static constexpr double stationary = 3e-8;
+  /// Angles between the best normal and those of the points that prove an upper bound. The points
+  /// lie below the plane by the square of the angle. The smaller angle is the root of the rounding.
+  static constexpr double turn_if_near = 3e-6, least_turn = 1e-8;
 
   void append(int feature_a, int feature_b, double weight) {
     feature_a_[count_] = feature_a;
@@ -130,8 +133,9 @@ class SlidingPortal {
   /// True if all features give the same bound, so that none of them lowers it.
   bool are_level() const {
     constexpr double of_near = 0.1;
+    const double most = query_.near > 0 ? of_near * query_.near : query_.rounding;
     for (int i = 1; i < count_; ++i)
-      if (std::abs(t_[i] - t_[0]) > of_near * query_.near) return false;
+      if (std::abs(t_[i] - t_[0]) > most) return false;
     return true;
   }
 
@@ -287,7 +291,7 @@ class SlidingPortal {
   /// gives a lower bound), support points in nearby directions.
   bool settle(const Vec3<double>& nd, bool is_known) {
     const double length = nd.norm();
-    double turn = 3e-6 * length;
+    double turn = (query_.near > 0 ? turn_if_near : least_turn) * length;
     SweptPoint f[4];
     const auto on_feature = [&](int i, const Vec3<double>& d) {
       return query_.on_features(feature_a_[i], feature_b_[i], d);

@@ -22,7 +22,8 @@ class ClosedSweep {
     radii_ = pair.a.radius + pair.b.radius;
     rounding_ = pair.rounding();
     speed_ = velocity.norm();
-    latest_ = std::min(t_max, (pair.x.norm() + pair.size() + radii_) / speed_);
+    passed_ = (pair.x.norm() + pair.size() + radii_ + near_ + rounding_) / speed_;
+    latest_ = std::min(t_max, passed_);
   }
 
   SweptTime run() {
@@ -50,6 +51,10 @@ class ClosedSweep {
         return result_;
       }
       const double next = t + gap / approach;
+      if (next > passed_) {
+        end(SweptStatus::miss, found.axis);
+        return result_;
+      }
       if (next > result_.t_lo) {
         result_.t_lo = next;
         result_.axis = found.axis;
@@ -82,7 +87,8 @@ class ClosedSweep {
     const CoreDistance there = distance_at_(later);
     if (!(there.upper - radii_ <= 0)) return result_;
     result_.t_hi = later;
-    if (!((later - result_.t_lo) * speed_ <= near_)) return result_;
+    if (!have_met(result_.t_lo, later, speed_, near_, -result_.axis.dot(velocity_), rounding_))
+      return result_;
     result_.a = there.a + radius_of_a_ * there.axis;
     end(SweptStatus::hit, result_.axis);
     return result_;
@@ -93,7 +99,8 @@ class ClosedSweep {
   const DistanceAt& distance_at_;
   const Guess& guess_;
   double radius_of_a_, radii_, rounding_, speed_;
-  double latest_;  ///< limit of the time: after it, the middles are too far apart
+  double passed_;  ///< after this time, the middles are too far apart for a contact
+  double latest_;  ///< the smaller of passed_ and t_max_
   SweptTime result_;
 };
 

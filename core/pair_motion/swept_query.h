@@ -39,11 +39,22 @@ inline double cross(const SweptPoint& a, const SweptPoint& b) {
   return a.p * b.q - a.q * b.p;
 }
 
+/// True if the two bounds of a time are near enough to end a search: B moves at most `near` between
+/// them. If `near` is 0, they must be as near as rounding allows. `approach` is the speed along the
+/// normal of the plane that proves the lower bound.
+inline bool have_met(double t_lo, double t_hi, double speed, double near, double approach,
+                     double rounding) {
+  constexpr double roundings = 3;
+  const double width = t_hi - t_lo;
+  return near > 0 ? width * speed <= near : width * approach <= roundings * rounding;
+}
+
 template <CoreKind A, CoreKind B>
 struct SweptQuery {
   const CorePair& pair;
   Vec3<double> velocity;  ///< of B, in A's frame
-  /// Latest time of interest; largest distance that B moves between the two bounds of a hit.
+  /// Latest time of interest; largest distance that B moves between the two bounds of a hit (see
+  /// have_met).
   double t_max, near;
   double radius = pair.a.radius + pair.b.radius;
   double size = pair.size() + radius;
@@ -166,7 +177,9 @@ struct SweptQuery {
   }
 
   /// True if the bounds of the time are near enough to end the search.
-  bool has_met() const { return (result.t_hi - result.t_lo) * speed <= near; }
+  bool has_met() const {
+    return have_met(result.t_lo, result.t_hi, speed, near, -result.axis.dot(velocity), rounding);
+  }
 };
 
 }  // namespace minkray

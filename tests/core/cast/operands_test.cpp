@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+// Casts at sums and differences of two operands, compared with a portal refinement in long double.
+#include <gtest/gtest.h>
+
+#include "core/cast/cast.h"
+#include "tests/oracle/portal.h"
+#include "tests/support/ray_families.h"
+#include "tests/support/values_asked_for.h"
+
+namespace minkray::testing {
+namespace {
+
+struct OfTwo {
+  std::string name;
+  Shape shape;
+};
+void PrintTo(const OfTwo& row, std::ostream* out) {
+  *out << row.name;
+}
+
+Shape turned(const Shape& shape, std::uint64_t seed) {
+  return Transform{shape, AffineMap(Affine<double>{Random(seed).rotation(), {0.3, -0.2, 0.1}})};
+}
+
+std::vector<OfTwo> sums_of_two() {
+  Random random(3);
+  std::vector<Vec3<double>> points;
+  for (int i = 0; i < 12; ++i) points.push_back(0.6 * random.direction());
+  const std::vector<OfTwo> operands = {
+      {"segment", Segment{{Vec3<double>(0, 0.1, -0.5), Vec3<double>(0.2, 0, 0.4)}}},
+      {"box", Box{{0.3, 0.5, 0.2}}},
+      {"hull", Hull{PointCloud(points)}},
+      {"capsule", Capsule{0.2, 0.4}},
+      {"cylinder", Cylinder{0.4, 0.5}},
+      {"cone", Cone{0.5, 0.4}},
+      {"frustum", Frustum{{0.5, 0.2}, 0.4}},
+      {"disk", Disk{0.5}},
+      {"ellipsoid", Ellipsoid{{0.2, 0.6, 0.4}}},
+      {"needle", Cylinder{0.004, 0.5}},
+      {"large", Cone{30, 20}},
+  };
+  std::vector<OfTwo> rows;
+  std::uint64_t seed = 0;
+  for (const OfTwo& a : operands)
+    for (const OfTwo& b : operands) {
+      const Shape other = turned(b.shape, ++seed);
+      const bool adds = seed % 2 == 0;
+      rows.push_back({a.name + (adds ? "_and_" : "_less_") + b.name,
+                      adds ? Shape(MinkowskiSum{{a.shape, other}})
+                           : Shape(MinkowskiDifference{a.shape, other})});
+    }
+  for (const OfTwo& a : operands)
+    rows.push_back({"grown_" + a.name,
+                    Rounded{0.1, Shape(MinkowskiSum{{a.shape, turned(Cone{0.3, 0.2}, ++seed)}})}});
+  return rows;
+}
+
+class SumsOfTwo : public ::testing::TestWithParam<OfTwo> {};
+
+/// As a distance between planes, in radii.
+constexpr Long gap = 1e-13L;
+/// The oracle moves a far origin near the shape in one step, along a rounded unit vector.
+constexpr Long oracle_rounding = 8 * std::numeric_limits<Long>::epsilon();
+
+void expect_within(const CastResult<double>& result, const PortalHit& truth,
+                   const std::string& of) {
+  const Long base = result.t_base, rounding = oracle_rounding * std::abs(base);
+  EXPECT_LE(base + result.offset_lo, truth.t_hi + rounding) << of;
+  EXPECT_GE(base + result.offset_hi, truth.t_lo - rounding) << of;
+}
+
+/// Compares one ray. Returns true for a hit.
+bool compare(const PreparedShape& shape, const PortalCast& portal, const Ray<double>& ray,
+             const std::string& of) {
+  const CastResult<double> result = cast_ray(shape, ray);
+  EXPECT_NE(result.status, Status::exhausted) << of;
+  const Vec3<Long> o = ray.origin.cast<Long>(), d = ray.direction.cast<Long>();
+  const PortalHit truth = portal(o, d, gap);
+  if (truth.answer == PortalHit::Answer::undecided) return false;
+  const bool is_hit = truth.answer == PortalHit::Answer::hit;
+  EXPECT_EQ(result.status == Status::hit, is_hit) << of;
+  if (!is_hit || result.status != Status::hit) return false;
+  expect_within(result, truth, of);
+
+  // From the middle of the chord the ray begins inside, and leaves where the opposite ray enters.
+  const Vec3<Long> back = -d;
+  const PortalHit exit = portal(o, back, gap);
+  if (exit.answer != PortalHit::Answer::hit) return true;
+  const Long chord = -exit.t_hi - truth.t_hi;
+  if (!(chord * d.norm() > 1e-6L * portal.radius())) return true;
+  const Ray<double> within{(o + (truth.t_hi + chord / 2) * d).cast<double>(), ray.direction};
+  EXPECT_EQ(cast_ray(shape, within).status, Status::inside) << of;
+  const CastResult<double> leaving = cast_exit(shape, ray);
+  EXPECT_EQ(leaving.status, Status::hit) << of;
+  EXPECT_LE(Long(leaving.t_base) + Long(leaving.t_offset), -exit.t_lo + 1e-9L) << of;
+  EXPECT_GE(Long(leaving.t_base) + Long(leaving.offset_hi),
+            -exit.t_hi - oracle_rounding * std::abs(exit.t_hi))
+      << of;
+
+  // Past the shape, and in the opposite direction, it misses.
+  const Ray<double> past{(o + (-exit.t_lo + chord / 4) * d).cast<double>(), ray.direction};
+  EXPECT_EQ(cast_ray(shape, past).status, Status::miss) << of;
+  Ray<double> shorter = ray;
+  shorter.t_max = static_cast<double>(truth.t_lo - chord / 4);
+  if (shorter.t_max > 0) {
+    EXPECT_EQ(cast_ray(shape, shorter).status, Status::miss) << of;
+  }
+  return true;
+}
+
+TEST_P(SumsOfTwo, are_met_within_the_bounds) {
+  const OfTwo& row = GetParam();
+  const PreparedShape shape(row.shape);
+  const PortalCast portal(row.shape);
+  for (const auto& [family, count, least] : {std::tuple(RayFamily::random, 20, 5),
+                                             {RayFamily::grazing, 10, 2},
+                                             {RayFamily::far, 5, 1}}) {
+    FamilyRays rays(row.shape, family, 11);
+    int hits = 0;
+    for (int i = 0; i < count; ++i)
+      hits += compare(shape, portal, rays.next(),
+                      std::string(name_of(family)) + " " + std::to_string(i));
+    EXPECT_GE(hits, least) << name_of(family);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, SumsOfTwo, values_asked_for<SumsOfTwo>(sums_of_two),
+                         [](const auto& tested) { return tested.param.name; });
+
+/// The plane of a miss separates the ray from the shape from beginning to end.
+TEST(SumsOfTwo, are_missed_by_a_plane) {
+  for (const OfTwo& row : sums_of_two()) {
+    const PreparedShape shape(row.shape);
+    FamilyRays rays(row.shape, RayFamily::random, 12);
+    for (int i = 0; i < 40; ++i) {
+      Ray<double> ray = rays.next();
+      if (i % 2 == 1) ray.t_max = 0.75;  // ends near the shape
+      const CastResult<double> result = cast_ray(shape, ray);
+      if (result.status != Status::miss) continue;
+      const Vec3<double>& n = result.normal;
+      const double reach = n.dot(row.shape.support(n)), begin = n.dot(ray.origin),
+                   towards = n.dot(ray.direction);
+      EXPECT_GT(begin, reach) << row.name << " " << i;
+      if (std::isinf(ray.t_max)) {
+        EXPECT_GE(towards, -1e-14 * ray.direction.norm()) << row.name << " " << i;
+      } else {
+        EXPECT_GT(begin + ray.t_max * towards, reach) << row.name << " " << i;
+      }
+    }
+  }
+}
+
+TEST(SumsOfTwo, take_few_support_points) {
+  for (const OfTwo& row : sums_of_two()) {
+    const PreparedShape shape(row.shape);
+    if (!shape.definition().operands()) continue;
+    FamilyRays rays(row.shape, RayFamily::random, 13);
+    constexpr int count = 50, most = 30;
+    int supports = 0;
+    for (int i = 0; i < count; ++i) supports += cast_ray(shape, rays.next()).supports;
+    EXPECT_LT(supports, most * count) << row.name;
+  }
+}
+
+}  // namespace
+}  // namespace minkray::testing
