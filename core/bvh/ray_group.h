@@ -16,7 +16,7 @@
 namespace minkray {
 namespace {
 
-constexpr std::size_t group_rows = rays_of_group / 8;
+inline constexpr std::size_t group_rows = rays_of_group / 8;
 
 [[gnu::always_inline]] inline float least_of(__m256 x) {
   x = _mm256_min_ps(x, _mm256_permute2f128_ps(x, x, 1));
@@ -173,7 +173,7 @@ class RayGroup {
 
   alignas(32) float inverse_[3][rays_of_group], t_max_[rays_of_group];
   float origin_near_[3], origin_far_[3];  ///< as in SlabNumbers (slab_ray.h), as is near_
-  int near_[3];
+  int near_[3] = {};
 };
 
 }  // namespace

@@ -70,11 +70,9 @@ Beginning begin_of(const CorePair& pair, int& supports) {
   return {};
 }
 
-}  // namespace
-
-CastResult<double> ask_operands(const StageQuestion& question) {
+/// Same as ask_operands, without the count of iterations.
+CastResult<double> contact_of(const SumOfCores* sum, const StageQuestion& question) {
   CastResult<double> result;
-  const SumOfCores* const sum = question.shape.definition().operands();
   if (!sum) return result;
   const RayNearBall<double>& near = question.near;
   const Ball<double>& ball = question.shape.inner_ball();
@@ -125,6 +123,14 @@ CastResult<double> ask_operands(const StageQuestion& question) {
     result.offset_lo = near.t_offset(begin + contact.t_lo) - digits;
     result.offset_hi = near.t_offset(begin + contact.t_hi) + digits;
   }
+  return result;
+}
+
+}  // namespace
+
+CastResult<double> ask_operands(const StageQuestion& question) {
+  CastResult<double> result = contact_of(question.shape.definition().operands(), question);
+  result.iterations = result.supports;  // each step takes one support point of the sum
   return result;
 }
 

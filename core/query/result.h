@@ -32,9 +32,11 @@ constexpr std::string_view name_of(Status status) {
 /// Stage of a cast that gave the result (docs/rays.md).
 enum class Path : unsigned char {
   filter,  ///< a closed form with an error bound
-  model,   ///< bounding volumes, or a local model of the shape, confirmed by supporting planes
-  gjk,     ///< the GJK ray cast, which uses only the support mapping
-  finer,   ///< a second cast with more digits, and a proof
+  /// Bounding volumes, the first contact of a sum's operands, or a local model of the shape,
+  /// confirmed by supporting planes.
+  model,
+  gjk,    ///< the GJK ray cast, which uses only the support mapping
+  finer,  ///< a second cast with more digits, and a proof
 };
 
 inline constexpr std::size_t path_count = 4;
