@@ -63,7 +63,8 @@ inline constexpr auto always = Proof::all;
 
 inline constexpr std::array policies = {
     Policy{Kind::automatic, with_form, steep, {filter, bounds, model, gjk, support_portal, finer}},
-    Policy{Kind::automatic, with_model, steep, {bounds, operands, model, gjk, support_portal, finer}},
+    Policy{
+        Kind::automatic, with_model, steep, {bounds, operands, model, gjk, support_portal, finer}},
     Policy{Kind::automatic, osculated, steep, {gjk, model, support_portal, finer}},
     Policy{Kind::automatic, extreme, always, {model, gjk, finer}},
     Policy{Kind::jet, ordinary, steep, {bounds, model, gjk, support_portal, finer}},

@@ -16,8 +16,8 @@ struct StageQuestion {
   const CastObserver& observer;
 };
 
-/// Runs Stage::operands, which has no iterations to observe. Returns `exhausted` if the shape has no
-/// two operands, if the ray begins in the shape or after it, and if rounding leaves the contact open.
+/// Runs Stage::operands, without an observer. Returns `exhausted` if the shape is no sum of two
+/// operands, or if rounding leaves the result open.
 CastResult<double> ask_operands(const StageQuestion& question);
 
 /// Runs Stage::model or Stage::support_portal.
