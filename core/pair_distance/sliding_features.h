@@ -75,6 +75,7 @@ class SlidingFeatures {
 
  private:
   static constexpr int most_turns = 12, most_turns_settling = 24;
+  static constexpr double slight_overlap = 1e-8;  // relative to the size
 
   void append(int feature_a, int feature_b, double weight) {
     feature_a_[count_] = feature_a;
@@ -239,7 +240,9 @@ bool SlidingFeatures<A, B>::run(const Vec3<double>& d, double damping) {
     const double least = query_.size * std::max(1e-4, damping);
     const double shift = gap > least ? 0 : least - gap;
     if (shift > 0 && gap <= 0 && is_known) {
-      constexpr double stationary = 1e-7;
+      // The points of a slight overlap are not improved later, unlike its direction.
+      const bool is_slight = !is_direction_asked_ && -gap <= slight_overlap * query_.size;
+      const double stationary = is_slight && step + 1 < most ? 1e-9 : 1e-7;
       const Vec3<double> aside = v - v.dot(n) * n;
       if (aside.squaredNorm() < stationary * stationary * query_.size * query_.size) {
         direction_ = n;
