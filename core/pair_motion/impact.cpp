@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/pair/closed_answer.h"
 #include "core/pair_motion/swept_time.h"
+#include "core/pair_motion/turning_body.h"
 
 namespace minkray {
 namespace {
@@ -20,53 +20,6 @@ constexpr double first_step = 1e-30;
 /// Number of distance queries that may run out of support points before the search ends. For bodies
 /// of infinite size all queries do, and each takes as long as a thousand others.
 constexpr int most_exhausted = 10;
-
-/// A body that may turn. Positions are relative to its pivot, or to its middle if it does not turn.
-class Turning {
- public:
-  Turning(const ContactShape& shape, const RigidMotion& motion)
-      : shape_(shape), motion_(motion), speed_(length_of(motion.angular_velocity)) {
-    if (speed_ > 0) axis_ = motion.angular_velocity / speed_;
-    if (speed_ > 0 && shape.is_moved()) arm_ = motion.pose.linear * shape.middle();
-    reach_ = shape.ball_radius() + length_of(arm_);
-  }
-
-  double speed() const { return speed_; }  ///< radians per unit of time
-  /// Upper bound of the distance of points from the axis.
-  double reach() const { return reach_; }
-  double arm_length() const { return reach_ - shape_.ball_radius(); }
-
-  PlacedMiddle seen_from() const {
-    if (speed_ > 0) return {motion_.pose.translation, shape_.core().rounding};
-    return placed_middle(shape_, motion_.pose);
-  }
-
-  /// Pose of the body at a time: its linear part, and its middle relative to seen_from().
-  Affine<double> at(double time) const {
-    if (!(speed_ > 0)) return {motion_.pose.linear, Vec3<double>::Zero()};
-    const Mat3<double> turn = Eigen::AngleAxis<double>(time * speed_, axis_).toRotationMatrix();
-    return {turn * motion_.pose.linear, turn * arm_};
-  }
-
-  /// Support function for a direction in the world.
-  double support(const Affine<double>& there, const Vec3<double>& n) const {
-    const Mat3<double> turn = turn_in_world(shape_, there.linear);
-    const Vec3<double> d = turn.transpose() * n;
-    const CoreSupport support = support_of_core<CoreKind::other>(shape_.core(), d);
-    return n.dot(there.translation) + d.dot(support.point) + shape_.core().radius;
-  }
-
-  Vec3<double> velocity_of(const Vec3<double>& from_seen) const {
-    return motion_.angular_velocity.cross(from_seen);
-  }
-
- private:
-  const ContactShape& shape_;
-  const RigidMotion& motion_;
-  double speed_;
-  Vec3<double> axis_ = Vec3<double>::Zero(), arm_ = Vec3<double>::Zero();
-  double reach_;
-};
 
 class Advance {
  public:
@@ -114,7 +67,9 @@ class Advance {
     double t_end = t_max_;
     while (may_go_on() && !gave_up(now)) {
       if (now.value <= touching_) return meet(t, t_end, now);
-      const double next = proven_until(t, t_end, now);
+      double next = proven_until(t, t_end, now);
+      if (result_.steps > steps_of_fixed_planes)
+        next = std::max(next, proven_by_turning_plane(t, t_end, now));
       if (next >= t_end) return miss(t_end, now.normal);
       if (!(next > t)) break;  // the time has no more digits
       t = next;
@@ -127,6 +82,9 @@ class Advance {
   bool may_go_on() const {
     return result_.steps < options_.max_steps && exhausted_ < most_exhausted;
   }
+
+  /// Number of steps after which planes may turn.
+  static constexpr int steps_of_fixed_planes = 50;
 
   /// True if the distance query found no upper bound, or one too large for a contact. The lower
   /// bound alone does not prove a contact.
@@ -248,6 +206,50 @@ class Advance {
       const double down = first.gap - worst;
       step *= std::clamp(down > 0 ? 0.9999 * (first.gap - allowed) / down : 0.5, 0.0, 0.9);
       if (!(t + step > t)) break;
+    }
+    return t;
+  }
+
+  /// Same as proven_until() by a plane whose normal turns as that of the distance does. Where the
+  /// edges of turning bodies pass each other slowly, a fixed plane soon cuts an edge: the steps are
+  /// then a small part of the time to the contact. In the frame of a body, the normal moves on a
+  /// curve p(t) with |p''| <= (its turning + the plane's)^2, and the support function changes by at
+  /// most reach |p - q|. Between two times, the gap is therefore at least its interpolation minus
+  /// bend step^2 / 8.
+  double proven_by_turning_plane(double t, double t_end, const SignedDistance& now) {
+    const double turning = std::max(turning_a_.speed(), turning_b_.speed());
+    if (!(turning > 0)) return t;
+    const double ahead = std::min(std::sqrt(std::max(now.value, 0.0) / size_) / turning, t_end - t);
+    if (!(t + ahead > t)) return t;
+    const SignedDistance then = at(t + ahead);
+    if (then.is_unknown()) return t;
+    const Vec3<double>&n = now.normal, across = then.normal - n.dot(then.normal) * n;
+    const double sine = length_of(across);
+    if (!(sine > 0 && sine < 0.5)) return t;
+    const double plane_speed = std::asin(sine) / ahead;
+    // Removes what rounding left of n.
+    const Vec3<double> aside = (across / sine - n.dot(across / sine) * n).normalized();
+    const auto square = [](double x) { return x * x; };
+    const double first = gap(t, n).gap;
+    const double way =
+                     turning_a_.reach() + turning_b_.reach() + length_of(start_.x + t * velocity_),
+                 rate = turning + plane_speed;
+    double step = std::min({t_end - t, 1 / rate, 2 * std::sqrt(std::max(first, 0.0) / way) / rate});
+    const bool is_last = step == t_end - t;
+    for (int i = 0; i < 60 && t + step > t; ++i) {
+      const double angle = plane_speed * step, end = t + step;
+      const Vec3<double> turned = std::cos(angle) * n + std::sin(angle) * aside;
+      const double furthest =
+          std::max(length_of(start_.x + t * velocity_), length_of(start_.x + end * velocity_));
+      const double bend = square(plane_speed) * furthest + 2 * plane_speed * length_of(velocity_) +
+                          turning_a_.reach() * square(turning_a_.speed() + plane_speed) +
+                          turning_b_.reach() * square(turning_b_.speed() + plane_speed);
+      const double allowed =
+          rounding * (size_ + furthest + start_.x.norm() + end * speed_) + loss_at(end);
+      const double last = gap(end, turned).gap, least = bend * step * step / 8 + allowed;
+      if (std::min(first, last) > least) return i == 0 && is_last ? t_end : end;
+      const double down = first - last + least;
+      step *= std::clamp(down > 0 ? 0.9999 * (first - allowed) / down : 0.5, 0.0, 0.9);
     }
     return t;
   }

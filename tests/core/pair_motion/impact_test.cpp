@@ -31,6 +31,29 @@ TEST(Impact, of_turning_boxes_is_that_of_dense_samples) {
   EXPECT_LT(seen.width, 1e-6);
 }
 
+TEST(Impact, of_crossing_capsules_that_approach_slowly_is_decided_in_few_steps) {
+  // The axes turn fast and their distance falls slowly: a fixed plane soon cuts one of them.
+  RigidMotion of_a, of_b;
+  of_a.pose.linear << 0.53226241799961183, -0.37642450160836649, 0.75828841015414417,
+      0.82753035432983235, 0.042399077121806239, -0.55981767650009184, 0.17857836108540323,
+      0.92547658687192746, 0.33407013650420658;
+  of_a.pose.translation << -3.0891076716691215, -9.4951571623806021, -0.54717844852233311;
+  of_a.velocity << 0.025496095183992748, 0.022936616250680584, -0.026107256069338371;
+  of_a.angular_velocity << -1.2907375844013633, 0.99737819598188426, 2.1427552951771052;
+  of_b.pose.linear << 0.88262244106097332, -0.18114013220971162, 0.43378091133499269,
+      -0.22506759148002253, -0.97297315097909753, 0.051651009081990815, 0.41270110952231559,
+      -0.14321836466338528, -0.89953671088077058;
+  of_b.pose.translation << -2.3763524341953346, -10.181009195506745, -1.7453035347277495;
+  of_b.velocity << -1.2952140553925198, 0.21102097842054895, 1.2500819234634382;
+  of_b.angular_velocity << 0.29997683850344853, 1.807978414713862, 0.052609233219322461;
+  const MovingPair pair = capsules_of({0.3946222121207037, 0.49268178041126298},
+                                      {0.40676878894759183, 0.597715567247737}, of_a, of_b, 1);
+  SeenImpacts seen;
+  EXPECT_EQ(impact_complaint(pair, 500, seen), "");
+  EXPECT_EQ(seen.hits, 1);
+  EXPECT_LT(first_impact(pair.a, of_a, pair.b, of_b, 1).steps, 200);
+}
+
 const ContactShape cube{Shape(Box{{1, 1, 1}})};
 
 RigidMotion at(double x, double y, double z, const Vec3<double>& velocity,

@@ -133,11 +133,8 @@ inline std::string impact_complaint(const MovingPair& pair, int samples, SeenImp
   return "";
 }
 
-inline MovingPair moving_capsules(RandomNumbers& random) {
-  const Capsule A{random.in(0.1, 0.5), random.in(0.1, 1)},
-      B{random.in(0.1, 0.5), random.in(0.1, 1)};
-  MovingPair pair{ContactShape(Shape(A)), ContactShape(Shape(B)), {}, {}, 0, {}};
-  move_at_random(pair, random);
+/// Sets `gap` for the pair's motions.
+inline void judge_capsules(MovingPair& pair, const Capsule& A, const Capsule& B) {
   pair.gap = [A, B, of_a = pair.of_a, of_b = pair.of_b](Long t) {
     const auto ends = [&](const RigidMotion& motion, double half) {
       const Affine<Long> pose = pose_at(motion, t);
@@ -147,6 +144,21 @@ inline MovingPair moving_capsules(RandomNumbers& random) {
     return between_segments(ends(of_a, A.half_height), ends(of_b, B.half_height)) - Long(A.radius) -
            Long(B.radius);
   };
+}
+
+inline MovingPair capsules_of(const Capsule& A, const Capsule& B, const RigidMotion& of_a,
+                              const RigidMotion& of_b, double t_max) {
+  MovingPair pair{ContactShape(Shape(A)), ContactShape(Shape(B)), of_a, of_b, t_max, {}};
+  judge_capsules(pair, A, B);
+  return pair;
+}
+
+inline MovingPair moving_capsules(RandomNumbers& random) {
+  const Capsule A{random.in(0.1, 0.5), random.in(0.1, 1)},
+      B{random.in(0.1, 0.5), random.in(0.1, 1)};
+  MovingPair pair{ContactShape(Shape(A)), ContactShape(Shape(B)), {}, {}, 0, {}};
+  move_at_random(pair, random);
+  judge_capsules(pair, A, B);
   return pair;
 }
 
