@@ -130,8 +130,8 @@ class BoxSweep {
     result_.t_lo = last_in_;
     result_.t_hi = surely_in_;
     result_.axis = normal_of(entered(), 1);
-    const bool is_near =
-        have_met(last_in_, surely_in_, speed_, near_, -result_.axis.dot(velocity_), rounding_);
+    const bool is_near = have_met(surely_in_ - last_in_, speed_, near_, rounding_,
+                                  [&] { return -result_.axis.dot(velocity_); });
     if (surely_in_ <= surely_out_ && is_near && find_point()) result_.status = SweptStatus::hit;
     return result_;
   }

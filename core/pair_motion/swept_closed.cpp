@@ -87,7 +87,8 @@ class ClosedSweep {
     const CoreDistance there = distance_at_(later);
     if (!(there.upper - radii_ <= 0)) return result_;
     result_.t_hi = later;
-    if (!have_met(result_.t_lo, later, speed_, near_, -result_.axis.dot(velocity_), rounding_))
+    if (!have_met(later - result_.t_lo, speed_, near_, rounding_,
+                  [&] { return -result_.axis.dot(velocity_); }))
       return result_;
     result_.a = there.a + radius_of_a_ * there.axis;
     end(SweptStatus::hit, result_.axis);

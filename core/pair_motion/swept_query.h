@@ -39,14 +39,15 @@ inline double cross(const SweptPoint& a, const SweptPoint& b) {
   return a.p * b.q - a.q * b.p;
 }
 
-/// True if the two bounds of a time are near enough to end a search: B moves at most `near` between
-/// them. If `near` is 0, they must be as near as rounding allows. `approach` is the speed along the
-/// normal of the plane that proves the lower bound.
-inline bool have_met(double t_lo, double t_hi, double speed, double near, double approach,
-                     double rounding) {
+/// True if the two bounds of a time, `width` apart, are near enough to end a search: B moves at
+/// most `near` between them. If `near` is 0, they must be as near as rounding allows. approach()
+/// returns the speed along the normal of the plane that proves the lower bound.
+template <class Approach>
+bool have_met(double width, double speed, double near, double rounding, const Approach& approach) {
   constexpr double roundings = 3;
-  const double width = t_hi - t_lo;
-  return near > 0 ? width * speed <= near : width * approach <= roundings * rounding;
+  if (near > 0) [[likely]]
+    return width * speed <= near;
+  return width * approach() <= roundings * rounding;
 }
 
 template <CoreKind A, CoreKind B>
@@ -178,7 +179,8 @@ struct SweptQuery {
 
   /// True if the bounds of the time are near enough to end the search.
   bool has_met() const {
-    return have_met(result.t_lo, result.t_hi, speed, near, -result.axis.dot(velocity), rounding);
+    return have_met(result.t_hi - result.t_lo, speed, near, rounding,
+                    [&] { return -result.axis.dot(velocity); });
   }
 };
 

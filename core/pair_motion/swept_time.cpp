@@ -41,7 +41,7 @@ SweptTime of_balls(const CorePair& pair, const Vec3<double>& velocity, double t_
   result.t_hi = t + off / approach;
   result.axis = unit<double>(there);
   result.a = pair.a.radius * result.axis;
-  if (!have_met(result.t_lo, result.t_hi, speed, near, approach, rounding))
+  if (!have_met(result.t_hi - result.t_lo, speed, near, rounding, [&] { return approach; }))
     result.status = SweptStatus::open;
   return result;
 }
