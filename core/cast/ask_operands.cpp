@@ -38,13 +38,17 @@ Vec3<double> separating_normal(const CorePair& pair, const Vec3<double>& velocit
   return gap(across) > 0 ? across : Vec3<double>(Vec3<double>::Zero());
 }
 
-/// True if the origin is deeper than `margin` in the tetrahedron.
+/// True if the origin is in the tetrahedron, even if each corner is up to `margin` from its place.
+/// Such an error tilts the plane of a thin face.
 bool is_within(const std::array<Vec3<double>, 4>& corners, double margin) {
   for (std::size_t i = 0; i < 4; ++i) {
-    const Vec3<double>&a = corners[i], &b = corners[(i + 1) % 4], &c = corners[(i + 2) % 4];
-    const Vec3<double> n = (b - a).cross(c - a);
-    const double height = n.dot(a), opposite = n.dot(corners[(i + 3) % 4] - a);
-    if (!(std::copysign(1.0, -opposite) * height > margin * n.norm())) return false;
+    const Vec3<double>&a = corners[i], u = corners[(i + 1) % 4] - a, v = corners[(i + 2) % 4] - a,
+          w = corners[(i + 3) % 4] - a, n = u.cross(v);
+    const double height = n.dot(a), opposite = n.dot(w);
+    const double tilt = 4 * margin * (u.norm() + v.norm());
+    if (!(std::abs(opposite) > tilt * w.norm() + 2 * margin * n.norm())) return false;
+    if (!(std::copysign(1.0, -opposite) * height > tilt * a.norm() + margin * n.norm()))
+      return false;
   }
   return true;
 }

@@ -100,6 +100,11 @@ bool compare(const PreparedShape& shape, const PortalCast& portal, const Ray<dou
   // Past the shape, and in the opposite direction, it misses.
   const Ray<double> past{(o + (-exit.t_lo + chord / 4) * d).cast<double>(), ray.direction};
   EXPECT_EQ(cast_ray(shape, past).status, Status::miss) << of;
+  for (const Long beyond : {1e-6L, 1e-8L}) {
+    const Long t = -exit.t_lo + beyond * portal.radius() / d.norm();
+    const Ray<double> just_past{(o + t * d).cast<double>(), ray.direction};
+    EXPECT_EQ(cast_ray(shape, just_past).status, Status::miss) << of;
+  }
   Ray<double> shorter = ray;
   shorter.t_max = static_cast<double>(truth.t_lo - chord / 4);
   if (shorter.t_max > 0) {
@@ -148,6 +153,36 @@ TEST(SumsOfTwo, are_missed_by_a_plane) {
       }
     }
   }
+}
+
+Mat3<double> rows_of(const std::array<double, 9>& numbers) {
+  Mat3<double> rows;
+  for (int i = 0; i < 9; ++i) rows(i / 3, i % 3) = numbers[static_cast<std::size_t>(i)];
+  return rows;
+}
+
+/// The ray begins 3e-9 R past a sum of two cones. Four points of the sum around the beginning are
+/// the corners of a thin tetrahedron, so rounding tilts its faces: "inside" was returned once.
+TEST(SumsOfTwo, do_not_contain_a_start_just_outside) {
+  const auto placed = [](const Shape& shape, const std::array<double, 9>& numbers) {
+    return Shape(Transform{shape, AffineMap(Affine<double>{rows_of(numbers), {0, 0, 0}})});
+  };
+  const Shape thin = placed(Cone{0.0071767948465549705, 0.73420315724174467},
+                            {0.6847002463324261, -0.52003408747118829, -0.51063697529685759,
+                             0.70145709097061515, 0.28001126564076761, 0.6554018924608761,
+                             -0.19784721933693508, -0.80694376444846772, 0.55650538076318612});
+  const Shape thick = placed(Cone{3.4657316135220646, 5.4089113112007263},
+                             {0.040541135570657083, -0.047961091459216759, 0.99802612692889092,
+                              0.41260756851949953, 0.91050880310596383, 0.026994700720173015,
+                              -0.9100062696086596, 0.41069873772947718, 0.056702170155524367});
+  const PreparedShape sum(
+      placed(MinkowskiSum{{thin, thick}},
+             {0.59189353999188699, -0.71959512495929534, 0.36310452138563176, -0.031662245125010147,
+              0.4293871214310987, 0.90256534510403108, -0.80539402751045797, -0.54571930154973558,
+              0.23136746609355574}));
+  const Ray<double> ray{{-0.099471460462513761, 1.8283347327411121, -1.2042897329016569},
+                        {-0.10954258974469901, 0.36657826652243536, -0.23158486239462954}};
+  EXPECT_EQ(cast_ray(sum, ray).status, Status::miss);
 }
 
 TEST(SumsOfTwo, take_few_support_points) {
