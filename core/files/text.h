@@ -57,7 +57,8 @@ inline std::string_view next_line(std::string_view& text) {
   return line;
 }
 
-/// Removes the next word from the front of the text and returns it; empty if there is none.
+/// Removes the next word from the front of the text and returns it. Returns an empty text at the
+/// end.
 inline std::string_view next_word(std::string_view& text) {
   std::size_t begin = 0;
   while (begin < text.size() && is_blank(text[begin])) ++begin;

@@ -20,7 +20,7 @@ struct NamedKind {
   std::string_view name, doc;
 };
 
-/// Returns the row with that name; null if there is none.
+/// Returns the row with this name, or null if the table has no such row.
 template <class Table>
 constexpr auto row_named(const Table& table, std::string_view name) {
   const auto row = std::ranges::find_if(table, [&](const auto& one) { return one.name == name; });
@@ -40,8 +40,8 @@ std::vector<std::string> names_in(const Table& table) {
   return names;
 }
 
-/// Returns the value with that name. Throws std::invalid_argument, with the known names, if there
-/// is none.
+/// Returns the value with this name. If the table does not have it, throws std::invalid_argument
+/// with the known names.
 template <class Table>
 auto kind_named(const Table& table, std::string_view name) {
   if (const auto row = row_named(table, name)) return row->kind;

@@ -103,7 +103,7 @@ const std::vector<InspectedSolver>& ServedScene::solvers_for(const Asked& asked)
   std::vector<InspectedSolver> made;
   const auto make = [&](const std::string& name) {
     const SolverDescription* const known = row_named(solver_descriptions, name);
-    if (!known) throw BadInput("solver: is none");
+    if (!known) throw BadInput("solver: is unknown");
     CastOptions of_solver;
     of_solver.solver = known->kind;
     of_solver.eps_tol = tolerance;

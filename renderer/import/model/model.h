@@ -134,7 +134,7 @@ std::vector<Affine<double>> link_poses(const Model& model);
 using JointsByName = std::unordered_map<std::string_view, ModelJoint*>;
 JointsByName joints_by_name(Model& model);
 
-/// The index of the link of that name; -1 if there is none.
+/// Returns the index of the link with this name, or -1 if no link has it.
 int find_link(const Model& model, std::string_view name);
 
 /// The joint of that name, or null.
