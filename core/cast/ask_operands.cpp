@@ -116,13 +116,9 @@ CastResult<double> contact_of(const SumOfCores* sum, const StageQuestion& questi
   if (contact.t_hi < 0 && beginning.status == Status::miss) return miss(beginning.axis);
   if (contact.status == SweptStatus::hit && contact.t_lo > 0 &&
       begin + contact.t_hi <= near.lambda_max) {
-    // The plane's lower bound allows for rounding; the hit itself does not. Each bound allows for
-    // one rounding at least: bounds that are nearer contradict each other, and the next stage
-    // decides.
+    // The plane's lower bound allows for rounding; the hit itself does not.
     const double rounding = pair.rounding() / -contact.axis.dot(velocity),
-                 hit = contact.t_lo + rounding;
-    constexpr double least_width = 1.5;  // roundings
-    if (!(contact.t_hi - contact.t_lo > least_width * rounding)) return result;
+                 hit = std::min(contact.t_lo + rounding, contact.t_hi);
     result.status = Status::hit;
     result.normal = sum->a.turn * contact.axis;
     result.t_base = near.t_base;

@@ -163,15 +163,21 @@ struct SweptQuery {
     if (!(sign * at_r >= 0 && sign * at_s >= 0 && sign * at_t >= 0 &&
           std::abs(area) > sliver * size * reach))
       return false;
-    const double of_r = at_r / area, of_s = at_s / area, of_t = at_t / area;
-    // The weights of a thin triangle give a point slightly off the origin, so the height is
-    // corrected along the triangle's plane. Rounding also moves the points sideways, which changes
-    // the height in proportion to the plane's steepness.
     const double p1 = s.p - r.p, q1 = s.q - r.q, h1 = s.h - r.h, p2 = t.p - r.p, q2 = t.q - r.q,
                  h2 = t.h - r.h, across = p1 * q2 - q1 * p2;
-    const double rise_p = (h1 * q2 - q1 * h2) / across, rise_q = (p1 * h2 - h1 * p2) / across;
-    const double p = of_r * r.p + of_s * s.p + of_t * t.p, q = of_r * r.q + of_s * s.q + of_t * t.q,
-                 h = of_r * r.h + of_s * s.h + of_t * t.h - rise_p * p - rise_q * q,
+    // The weights of a thin triangle give a point slightly off the origin. A second step corrects
+    // them; the height is then corrected along the triangle's plane, by a distance so small that
+    // the rounding of the plane's slope does not matter. Rounding also moves the points sideways,
+    // which changes the height in proportion to the plane's steepness.
+    double of_s = at_s / area, of_t = at_t / area;
+    double p = r.p + of_s * p1 + of_t * p2, q = r.q + of_s * q1 + of_t * q2;
+    of_s -= (p * q2 - q * p2) / across;
+    of_t -= (p1 * q - q1 * p) / across;
+    p = r.p + of_s * p1 + of_t * p2;
+    q = r.q + of_s * q1 + of_t * q2;
+    const double rise_p = (h1 * q2 - q1 * h2) / across, rise_q = (p1 * h2 - h1 * p2) / across,
+                 of_r = 1 - of_s - of_t;
+    const double h = r.h + of_s * h1 + of_t * h2 - rise_p * p - rise_q * q,
                  allowed = rounding * (1 + std::abs(rise_p) + std::abs(rise_q));
     lower_t_hi((allowed - h) / speed, of_r * r.a + of_s * s.a + of_t * t.a);
     return true;

@@ -58,7 +58,7 @@ std::vector<OfTwo> sums_of_two() {
 class SumsOfTwo : public ::testing::TestWithParam<OfTwo> {};
 
 /// As a distance between planes, in radii.
-constexpr Long gap = 1e-13L;
+constexpr Long gap = 1e-16L;
 /// The oracle moves a far origin near the shape in one step, along a rounded unit vector.
 constexpr Long oracle_rounding = 8 * std::numeric_limits<Long>::epsilon();
 
@@ -155,18 +155,15 @@ TEST(SumsOfTwo, are_missed_by_a_plane) {
   }
 }
 
-Mat3<double> rows_of(const std::array<double, 9>& numbers) {
-  Mat3<double> rows;
-  for (int i = 0; i < 9; ++i) rows(i / 3, i % 3) = numbers[static_cast<std::size_t>(i)];
-  return rows;
+Shape placed(const Shape& shape, const std::array<double, 9>& rows) {
+  Mat3<double> turn;
+  for (int i = 0; i < 9; ++i) turn(i / 3, i % 3) = rows[static_cast<std::size_t>(i)];
+  return Transform{shape, AffineMap(Affine<double>{turn, {0, 0, 0}})};
 }
 
 /// The ray begins 3e-9 R past a sum of two cones. Four points of the sum around the beginning are
 /// the corners of a thin tetrahedron, so rounding tilts its faces: "inside" was returned once.
 TEST(SumsOfTwo, do_not_contain_a_start_just_outside) {
-  const auto placed = [](const Shape& shape, const std::array<double, 9>& numbers) {
-    return Shape(Transform{shape, AffineMap(Affine<double>{rows_of(numbers), {0, 0, 0}})});
-  };
   const Shape thin = placed(Cone{0.0071767948465549705, 0.73420315724174467},
                             {0.6847002463324261, -0.52003408747118829, -0.51063697529685759,
                              0.70145709097061515, 0.28001126564076761, 0.6554018924608761,
@@ -183,6 +180,25 @@ TEST(SumsOfTwo, do_not_contain_a_start_just_outside) {
   const Ray<double> ray{{-0.099471460462513761, 1.8283347327411121, -1.2042897329016569},
                         {-0.10954258974469901, 0.36657826652243536, -0.23158486239462954}};
   EXPECT_EQ(cast_ray(sum, ray).status, Status::miss);
+}
+
+/// The triangle of points that bounds t from above is 3e-10 wide. Weights of its corners are
+/// rounded to 1e-7, and the bound was once too early by 2e-14 R.
+TEST(SumsOfTwo, are_bounded_by_thin_triangles) {
+  const Shape needle = placed(Cylinder{0.0054533121962582519, 1.0318090973756797},
+                              {0.33631997887907217, 0.62580039465637127, 0.70374905886595029,
+                               -0.13259363487970929, 0.77130194540170915, -0.62250480882393622,
+                               -0.93236677321543748, 0.11604815839757637, 0.34238140302353492});
+  const Shape box = placed(Box{{0.25346761738055473, 0.0026625870360263309, 0.21695894449702091}},
+                           {1, 0, 0, 0, -2.2204460492503131e-16, -1.0000000000000002, 0,
+                            1.0000000000000002, -2.2204460492503131e-16});
+  const Shape shape = placed(Rounded{0.046221865942275814, Shape(MinkowskiDifference{needle, box})},
+                             {-0.42918452347726488, 0.33348183577719015, -0.83939889803017265,
+                              -0.69099548395079757, -0.71971244590811589, 0.067373855200370092,
+                              -0.58165787707826666, 0.60893666371112243, 0.53932388563939138});
+  const Ray<double> ray{{-2.496680343116779, -3.0905215225496381, -8.0323398830099357},
+                        {2.6133392589791558, 3.4547919316324913, 8.0605610828182233}};
+  EXPECT_TRUE(compare(PreparedShape(shape), PortalCast(shape), ray, "needle less box"));
 }
 
 TEST(SumsOfTwo, take_few_support_points) {
