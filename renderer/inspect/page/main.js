@@ -20,6 +20,8 @@ class Inspector {
     this.rays = [];
     /** Whether the address may be written: not while it is read. */
     this.isReady = false;
+    /** The timer of the address's next writing; 0: none waits. */
+    this.addressTimer = 0;
   }
 
   get view() {
@@ -214,9 +216,14 @@ class Inspector {
     if (picture.chosen && this.mode === 'ray') this.choose(picture.chosen[0], picture.chosen[1]);
   }
 
-  /** The state as the address has it. */
+  /** Writes the address soon: browsers refuse more than some 20 writings a second. */
   keepAddress() {
-    if (!this.isReady) return;
+    if (this.isReady && !this.addressTimer) this.addressTimer = window.setTimeout(() => this.writeAddress(), 100);
+  }
+
+  /** The state as the address has it. */
+  writeAddress() {
+    this.addressTimer = 0;
     const parts = [];
     if (this.picture.chosen) parts.push('pixel=' + placeText(this.picture.chosen, ','));
     parts.push('step=' + this.replay.step);
@@ -228,6 +235,8 @@ class Inspector {
 
   async readAddress() {
     this.isReady = false;
+    window.clearTimeout(this.addressTimer);
+    this.addressTimer = 0;
     const values = new URLSearchParams(location.hash.slice(1));
     const solver = this.view.solvers.findIndex(s => s.name === values.get('solver'));
     this.picture.solver = Math.max(solver, 0);

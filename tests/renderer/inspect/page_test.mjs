@@ -161,8 +161,8 @@ test('a link leads to its pixel and step, and the address says where one is', as
   assert.equal(await first.value("document.getElementById('step').value"), '3');
   assert.match(await first.text('replay-summary'), /by paper$/);
   await first.value("document.getElementById('next').click()");
-  const address = await first.value('location.hash');
-  assert.equal(address, '#pixel=' + chosen + '&step=4&solver=paper&show=iterations');
+  const address = '#pixel=' + chosen + '&step=4&solver=paper&show=iterations';
+  await first.until(`location.hash === '${address}'`);
   const second = await open(address.slice(1));
   assert.equal(await second.text('replay-summary'), await first.text('replay-summary'));
   assert.equal(await second.text('step-sentence'), await first.text('step-sentence'));
