@@ -16,7 +16,7 @@
 namespace minkray {
 namespace {
 
-inline constexpr std::size_t group_rows = rays_of_group / 8;
+constexpr std::size_t group_rows = rays_of_group / 8;
 
 [[gnu::always_inline]] inline float least_of(__m256 x) {
   x = _mm256_min_ps(x, _mm256_permute2f128_ps(x, x, 1));
@@ -63,7 +63,7 @@ class RayGroup {
       t_max_[i] = numbers.t_max;
     }
     for (std::size_t i = count; i < rays_of_group; ++i) {
-      for (std::size_t k = 0; k < 3; ++k) inverse_[k][i] = inverse_[k][0];
+      for (std::size_t k = 0; k < 3; ++k) inverse_[k][i] = rays[0].numbers.inverse_far[k];
       t_max_[i] = -1;
     }
     return is_alike;

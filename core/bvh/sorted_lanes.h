@@ -21,7 +21,7 @@ struct LanesOfSet {
         if (set >> lane & 1) lanes[set] |= static_cast<std::uint64_t>(lane) << (8 * count++);
   }
 };
-inline constexpr LanesOfSet lanes_of_set;
+constexpr LanesOfSet lanes_of_set;
 
 /// Numbers of the lanes in the set, one per lane from the front.
 inline __m256i lanes_of(std::uint32_t set) {
