@@ -67,13 +67,15 @@ std::string told(const Ray<double>& ray) {
   return out.str();
 }
 
-/// The error of a filter's hit by the bound that it claims; what the oracle itself does not know is
-/// taken off.
-double error_by_bound(const Ray<double>& ray, const CastResult<double>& answer, long double truth,
-                      double radius) {
+/// The error of a filter's hit by the bound that it claims. The oracle's own error is taken off: it
+/// moves origins towards the shape, and shallow rays turn an error across the ray into a longer one
+/// along it.
+double error_by_bound(const Ray<double>& ray, const CastResult<double>& answer,
+                      const TrueEntry& entry, double radius) {
   constexpr long double epsilon = std::numeric_limits<long double>::epsilon();
-  const long double unknown = 8 * epsilon * (ray.origin.norm() + radius) / ray.direction.norm();
-  const long double error = truth - answer.t_base - answer.t_offset;
+  const long double unknown =
+      8 * epsilon * (ray.origin.norm() + radius) / (ray.direction.norm() * entry.cosine);
+  const long double error = entry.entry.t - answer.t_base - answer.t_offset;
   const long double bound = error > 0 ? (long double)(answer.offset_hi) - answer.t_offset
                                       : (long double)(answer.t_offset) - answer.offset_lo;
   const long double certain = std::max(0.0L, std::abs(error) - unknown);
@@ -93,7 +95,7 @@ void judge_one(const CastJudge& judge, const Ray<double>& ray, const CastResult<
   if (judged.verdict != Verdict::right || answer.status != Status::hit) return;
   ++count.hits;
   if (answer.path == Path::filter) {
-    const double by_bound = error_by_bound(ray, answer, truth.entry.t, radius);
+    const double by_bound = error_by_bound(ray, answer, truth, radius);
     count.broken += !(by_bound <= 1);
     count.by_bound = std::max(count.by_bound, by_bound);
   }

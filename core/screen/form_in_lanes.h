@@ -33,12 +33,20 @@ template <class FourOf>
           w(_mm256_shuffle_ps(ab_high, cd_high, 0xEE))};
 }
 
+/// The greatest of the lanes.
+inline float greatest_lane(const W& x) {
+  const auto lanes = __m256(x.lanes);
+  __m128 most = _mm_max_ps(_mm256_castps256_ps128(lanes), _mm256_extractf128_ps(lanes, 1));
+  most = _mm_max_ps(most, _mm_permute_ps(most, 0x4E));
+  return _mm_cvtss_f32(_mm_max_ps(most, _mm_permute_ps(most, 0xB1)));
+}
+
 /// The members of ScreenForm in lanes.
 struct FormInLanes {
   std::array<W, 4> sizes;
   W slope, sine, R, least, extent, up;
   Vec3<W> scale, offset;
-  const std::vector<float>* planes = nullptr;  ///< planes of a polytope, the same for all lanes
+  const ScreenPlanes* planes = nullptr;  ///< planes of a polytope, the same for all lanes
 
   /// Uses the same form in all lanes.
   explicit FormInLanes(const Screen& screen) : FormInLanes(screen.form) {
@@ -56,10 +64,10 @@ struct FormInLanes {
         offset(W(form.offset[0]), W(form.offset[1]), W(form.offset[2])) {}
 
   /// Uses one form per lane.
-  explicit FormInLanes(const ScreenForm* const (&forms)[screen_lanes]) {
+  explicit FormInLanes(const Screen* const (&screens)[screen_lanes]) {
     const auto from = [&](std::size_t place) {
       return side_by_side([&](std::size_t lane) {
-        return four(reinterpret_cast<const float*>(forms[lane]) + 4 * place);
+        return four(reinterpret_cast<const float*>(&screens[lane]->form) + 4 * place);
       });
     };
     sizes = from(0);
@@ -77,33 +85,95 @@ struct FormInLanes {
 static_assert(offsetof(ScreenForm, slope) == 16 && offsetof(ScreenForm, scale) == 32 &&
               offsetof(ScreenForm, offset) == 48 && sizeof(ScreenForm) == 64);
 
-/// Tests one line per lane against all planes of one polytope. E includes the rounding of planes to
-/// float: normal, offset and sums together have an error of less than 2^-21 of the size of near
-/// positions.
+/// A mask of lanes, given as bits.
+inline Mask<W> lanes_in(std::uint32_t bits) {
+  const __m256i each = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+  const __m256i chosen = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(bits)), each);
+  return Mask<W>(Mask<W>::Bits(_mm256_cmpeq_epi32(chosen, each)));
+}
+
+/// The first lanes, up to `count`.
+inline Mask<W> first_lanes(std::size_t count) {
+  return lanes_in((1u << count) - 1u);
+}
+
+/// Bounds of the parameters at which lines enter the last half-space and leave the first.
+struct PlanesCrossed {
+  static constexpr float infinity = std::numeric_limits<float>::infinity();
+  W in_lo{-infinity}, in_hi{-infinity}, out_lo{infinity}, out_hi{infinity};
+
+  /// Crosses a plane with one line per lane, or a plane per lane with one line. `below` is the
+  /// plane's offset less its depth. E includes the rounding of planes to float: normal, offset and
+  /// sums together have an error of less than 2^-21 of the size of near positions.
+  [[gnu::always_inline]] void cross(const Vec3<W>& normal, const W& offset, const W& below,
+                                    const Vec3<W>& s, const Vec3<W>& d, const W& E) {
+    const W slope = fma(normal.x(), d.x(), fma(normal.y(), d.y(), normal.z() * d.z()));
+    const W height = fma(normal.x(), s.x(), fma(normal.y(), s.y(), normal.z() * s.z()));
+    const Mask<W> enters = slope < W(0);
+    const W size = W(1) / max(abs(slope), W(exact::least_component<W>));
+    const W inv = select(enters, -size, size);
+    const W outer = ((offset - height) + E) * inv, inner = ((below - height) - E) * inv;
+    in_lo = max(in_lo, select(enters, outer, W(-infinity)));
+    in_hi = max(in_hi, select(enters, inner, W(-infinity)));
+    out_lo = min(out_lo, select(enters, W(infinity), inner));
+    out_hi = min(out_hi, select(enters, W(infinity), outer));
+  }
+};
+
+/// Crosses all planes with one line per lane.
+[[gnu::always_inline]] inline PlanesCrossed cross_with_lines(const ScreenPlanes& planes,
+                                                             const exact::Line<W>& line) {
+  PlanesCrossed crossed;
+  for (std::size_t i = 0; i < planes.count; ++i) {
+    const float* const at = planes.row(i / screen_lanes) + i % screen_lanes;
+    const auto number = [&](std::size_t k) { return W(at[k * screen_lanes]); };
+    crossed.cross({number(0), number(1), number(2)}, number(3), number(4), line.s, line.d, line.E);
+  }
+  return crossed;
+}
+
+/// Crosses the planes with the lines in the set of lanes, one after the other: faster for few
+/// lines.
+inline PlanesCrossed cross_with_planes(const ScreenPlanes& planes, const exact::Line<W>& line,
+                                       std::uint32_t lanes) {
+  PlanesCrossed all;
+  for (; lanes != 0; lanes &= lanes - 1) {
+    const int lane = __builtin_ctz(lanes);
+    const auto alone = [&](const Vec3<W>& v) {
+      return Vec3<W>(W(v.x().lane(lane)), W(v.y().lane(lane)), W(v.z().lane(lane)));
+    };
+    const Vec3<W> s = alone(line.s), d = alone(line.d);
+    const W E(line.E.lane(lane));
+    PlanesCrossed crossed;
+    for (std::size_t first = 0; first < planes.count; first += screen_lanes) {
+      const float* const row = planes.row(first / screen_lanes);
+      const auto number = [&](std::size_t k) { return W::load(row + k * screen_lanes); };
+      crossed.cross({number(0), number(1), number(2)}, number(3), number(4), s, d, E);
+    }
+    all.in_lo.set_lane(lane, greatest_lane(crossed.in_lo));
+    all.in_hi.set_lane(lane, greatest_lane(crossed.in_hi));
+    all.out_lo.set_lane(lane, -greatest_lane(-crossed.out_lo));
+    all.out_hi.set_lane(lane, -greatest_lane(-crossed.out_hi));
+  }
+  return all;
+}
+
+/// Most lines that cross_with_planes handles faster than cross_with_lines.
+constexpr int few_lines = 4;
+
+/// Tests the lines in open lanes against all planes of one polytope.
 [[gnu::always_inline]] inline exact::Entry<W> enter_planes_alike(const FormInLanes& form,
                                                                  const exact::Line<W>& line,
                                                                  const Mask<W>& open) {
-  constexpr float infinity = std::numeric_limits<float>::infinity();
-  W in_lo(-infinity), in_hi(-infinity), out_lo(infinity), out_hi(infinity);
-  const float* at = form.planes->data();
-  const float* const end = at + form.planes->size();
-  for (; at != end; at += 5) {
-    const W x(at[0]), y(at[1]), z(at[2]);
-    const W slope = x * line.d.x() + (y * line.d.y() + z * line.d.z());
-    const W room = W(at[3]) - (x * line.s.x() + (y * line.s.y() + z * line.s.z()));
-    const W inv = W(1) / max(abs(slope), W(exact::least_component<W>));
-    const W t = room * inv, e = line.E * inv, deep = (line.E + W(at[4])) * inv;
-    const Mask<W> enters = slope < W(0);
-    in_lo = max(in_lo, select(enters, -t - e, W(-infinity)));
-    in_hi = max(in_hi, select(enters, deep - t, W(-infinity)));
-    out_lo = min(out_lo, select(enters, W(infinity), t - deep));
-    out_hi = min(out_hi, select(enters, W(infinity), t + e));
-  }
+  const std::uint32_t lanes = lane_bits(open);
+  const PlanesCrossed crossed = __builtin_popcount(lanes) <= few_lines
+                                    ? cross_with_planes(*form.planes, line, lanes)
+                                    : cross_with_lines(*form.planes, line);
   exact::Entry<W> entry;
-  entry.miss = open & (in_lo > out_hi);
-  entry.hit = open & (in_hi <= out_lo);
-  entry.t = (in_lo + in_hi) * W(0.5f);
-  entry.e = (in_hi - in_lo) * W(0.5f);
+  entry.miss = open & (crossed.in_lo > crossed.out_hi);
+  entry.hit = open & (crossed.in_hi <= crossed.out_lo);
+  entry.t = (crossed.in_lo + crossed.in_hi) * W(0.5f);
+  entry.e = (crossed.in_hi - crossed.in_lo) * W(0.5f);
   return entry;
 }
 

@@ -56,15 +56,20 @@ ScreenForm screen_form(const exact::Form& form, const Vec3<double>& centre) {
 /// Limit of planes: larger polytopes are screened by their box.
 constexpr std::size_t most_planes = 128;
 
-std::shared_ptr<const std::vector<float>> planes_of(const exact::Polytope& polytope) {
+std::shared_ptr<const ScreenPlanes> planes_of(const exact::Polytope& polytope) {
   const exact::PolytopeTables& of = polytope.tables();
   if (of.rounded_by > 0 || polytope.planes() > most_planes || polytope.planes() < 4) return {};
-  auto planes = std::make_shared<std::vector<float>>();
-  for (std::size_t i = 0; i < polytope.planes(); ++i) {
-    const double* const row = &of.planes[i * of.plane_row];
-    for (int k = 0; k < 4; ++k) planes->push_back(static_cast<float>(row[k]));
-    planes->push_back(static_cast<float>((row[4] + polytope.rounding()) * (1 + 0x1p-20)));
-  }
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  auto planes = std::make_shared<ScreenPlanes>();
+  planes->count = polytope.planes();
+  for (std::size_t first = 0; first < planes->count; first += screen_lanes)
+    for (std::size_t k = 0; k < ScreenPlanes::numbers; ++k)
+      for (std::size_t i = first; i < first + screen_lanes; ++i) {
+        const double* const row = &of.planes[std::min(i, planes->count - 1) * of.plane_row];
+        const float below =
+            std::nextafter(static_cast<float>(row[3] - row[4] - polytope.rounding()), -infinity);
+        planes->rows.push_back(k < 4 ? static_cast<float>(row[k]) : below);
+      }
   return planes;
 }
 

@@ -32,6 +32,19 @@ struct alignas(64) ScreenForm {
   float extent = 0;
   std::array<float, 3> offset = {};
   float up = 1;  ///< -1: upside down
+
+  bool operator==(const ScreenForm&) const = default;
+};
+
+/// Planes of a polytope as floats, in rows of screen_lanes planes. A row has the planes' normals
+/// (x, y, z), their offsets, and their offsets less their depth, the distance by which corners of
+/// the face may be below the plane. The last row repeats its last plane.
+struct ScreenPlanes {
+  static constexpr std::size_t numbers = 5;
+  std::vector<float> rows;
+  std::size_t count = 0;  ///< number of planes
+
+  const float* row(std::size_t i) const { return rows.data() + i * numbers * screen_lanes; }
 };
 
 /// Screening data of a definition: its closed form, or a box around the shape if lanes do not
@@ -40,9 +53,16 @@ struct Screen {
   ScreenForm form;
   FormKind kind = FormKind::none;  ///< none: the definition cannot be screened in lanes
   bool is_whole = false;  ///< true: `form` is the shape's own form; false: a box around the shape
-  /// Planes of a polytope, five floats each: normal (3), offset, and depth, the distance by which
-  /// corners of the face may be below the plane.
-  std::shared_ptr<const std::vector<float>> planes = {};
+  std::shared_ptr<const ScreenPlanes> planes = {};  ///< of a polytope
+  std::uint32_t first_equal = 0;  ///< index of the first screen in the list that equals this one
+
+  /// Shares the planes of another screen of the same definition and, if they are equal, its number.
+  void share_with(const Screen& other) {
+    if (planes && other.planes) planes = other.planes;
+    if (kind == other.kind && is_whole == other.is_whole && form == other.form &&
+        planes == other.planes)
+      first_equal = other.first_equal;
+  }
 };
 
 /// Makes the screening data of a definition. `centre` is the centre of definition.inner_ball(), the
@@ -70,9 +90,10 @@ struct ScreenBits {
   std::uint32_t open, sure;
 };
 
-/// Screens eight pairs, whose shapes all have the same kind other than `none`; requires AVX2 and
-/// FMA.
+/// Screens `used` pairs, whose shapes all have the same kind other than `none`. The arrays have
+/// screen_lanes items; those beyond `used` must be valid, and their results are not. Requires AVX2
+/// and FMA.
 ScreenBits screen_avx2(FormKind kind, const ScreenList& list, const std::uint32_t* rays,
-                       const std::uint32_t* instances, Screened& answers);
+                       const std::uint32_t* instances, std::size_t used, Screened& answers);
 
 }  // namespace minkray

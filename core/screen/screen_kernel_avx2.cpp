@@ -12,6 +12,7 @@ struct Seen {
   Vec3<W> near, d;  ///< point relative to the centre, direction; both in the world
   W k, d_squared;   ///< the parameter of `near`
   Mat3<W> map;
+  Mask<W> used;  ///< lanes with a pair
 };
 
 template <class F>
@@ -42,7 +43,7 @@ template <class F>
   line.E = W(tolerance::screen_rounding) * (largest_scale * reach + form.extent);
   const W share = line.E / form.R;
   line.parallel = share * share * W(0x1p-4f) * line.dd;
-  const Mask<W> bounded = (line.dd > W(tolerance::screen_shortest_squared)) &
+  const Mask<W> bounded = seen.used & (line.dd > W(tolerance::screen_shortest_squared)) &
                           (line.dd < W(tolerance::screen_longest_squared)) &
                           (line.E < W(tolerance::screen_largest_share) * min(form.least, form.R));
 
@@ -76,23 +77,27 @@ template <class F>
           lane_bits(last <= limit & (last < W(std::numeric_limits<float>::infinity())))};
 }
 
-/// Screens the polytopes of the lanes, one definition after the other.
+/// Screens the polytopes of the lanes, one set of planes after the other.
 [[gnu::noinline]] ScreenBits look_at_polytopes(const Seen& seen,
                                                const Screen* const (&screens)[screen_lanes],
                                                const W& limits, Screened& answers) {
   ScreenBits all{0, 0};
-  for (std::uint32_t left = 0xffu; left != 0;) {
-    const Screen* const screen = screens[__builtin_ctz(left)];
-    Screened theirs;
-    const ScreenBits bits = look<exact::PolytopeForm>(seen, FormInLanes(*screen), limits, theirs);
-    for (std::size_t lane = 0; lane < screen_lanes; ++lane) {
-      if (screens[lane] != screen) continue;
-      const std::uint32_t bit = 1u << lane;
-      all.open |= bits.open & bit;
-      all.sure |= bits.sure & bit;
-      answers.first[lane] = theirs.first[lane];
-      answers.last[lane] = theirs.last[lane];
-      left &= ~bit;
+  FormInLanes form(screens);
+  for (std::uint32_t left = lane_bits(seen.used), same = 0; left != 0; left &= ~same) {
+    form.planes = screens[__builtin_ctz(left)]->planes.get();
+    same = 0;
+    for (std::uint32_t lane = 0; lane < screen_lanes; ++lane)
+      same |= (screens[lane]->planes.get() == form.planes ? left : 0u) & 1u << lane;
+    Seen theirs = seen;
+    theirs.used = lanes_in(same);
+    Screened found;
+    const ScreenBits bits = look<exact::PolytopeForm>(theirs, form, limits, found);
+    all.open |= bits.open & same;
+    all.sure |= bits.sure & same;
+    for (std::uint32_t lanes = same; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::size_t>(__builtin_ctz(lanes));
+      answers.first[lane] = found.first[lane];
+      answers.last[lane] = found.last[lane];
     }
   }
   return all;
@@ -100,8 +105,9 @@ template <class F>
 
 template <class F>
 ScreenBits screen(const ScreenList& list, const std::uint32_t* rays, const std::uint32_t* instances,
-                  Screened& answers) {
+                  std::size_t used, Screened& answers) {
   const InstancePlace* place[screen_lanes];
+  const Screen* screens[screen_lanes];
   const double* ray[screen_lanes];
   __m256d from_centre[screen_lanes];
   std::uint32_t others = 0;
@@ -110,10 +116,12 @@ ScreenBits screen(const ScreenList& list, const std::uint32_t* rays, const std::
     ray[lane] = reinterpret_cast<const double*>(list.rays + list.stride * rays[lane]);
     from_centre[lane] =
         _mm256_sub_pd(_mm256_loadu_pd(ray[lane]), _mm256_loadu_pd(place[lane]->origin));
-    others |= place[lane]->body ^ place[0]->body;
+    screens[lane] = list.screens + place[lane]->body;
+    others |= screens[lane]->first_equal ^ screens[0]->first_equal;
   }
   const auto vector = [](const std::array<W, 4>& v) { return Vec3<W>(v[0], v[1], v[2]); };
   Seen seen;
+  seen.used = first_lanes(used);
   const Vec3<W> outer =
       vector(side_by_side([&](std::size_t lane) { return _mm256_cvtpd_ps(from_centre[lane]); }));
   seen.d = vector(side_by_side(
@@ -140,25 +148,18 @@ ScreenBits screen(const ScreenList& list, const std::uint32_t* rays, const std::
   const W limits(
       W::Lanes{limit(0), limit(1), limit(2), limit(3), limit(4), limit(5), limit(6), limit(7)});
   if (others == 0) [[likely]]
-    return look<F>(seen, FormInLanes(list.screens[place[0]->body]), limits, answers);
-  if constexpr (F::lanes == exact::Lanes::planes) {
-    const Screen* screens[screen_lanes];
-    for (std::size_t lane = 0; lane < screen_lanes; ++lane)
-      screens[lane] = &list.screens[place[lane]->body];
+    return look<F>(seen, FormInLanes(*screens[0]), limits, answers);
+  if constexpr (F::lanes == exact::Lanes::planes)
     return look_at_polytopes(seen, screens, limits, answers);
-  } else {
-    const ScreenForm* forms[screen_lanes];
-    for (std::size_t lane = 0; lane < screen_lanes; ++lane)
-      forms[lane] = &list.screens[place[lane]->body].form;
-    return look<F>(seen, FormInLanes(forms), limits, answers);
-  }
+  else
+    return look<F>(seen, FormInLanes(screens), limits, answers);
 }
 
 }  // namespace
 
 ScreenBits screen_avx2(FormKind kind, const ScreenList& list, const std::uint32_t* rays,
-                       const std::uint32_t* instances, Screened& answers) {
-  return for_kind(kind, [&]<class F>() { return screen<F>(list, rays, instances, answers); });
+                       const std::uint32_t* instances, std::size_t used, Screened& answers) {
+  return for_kind(kind, [&]<class F>() { return screen<F>(list, rays, instances, used, answers); });
 }
 
 }  // namespace minkray
@@ -167,7 +168,7 @@ namespace minkray {
 
 /// Never called on machines without AVX2.
 ScreenBits screen_avx2(FormKind, const ScreenList&, const std::uint32_t*, const std::uint32_t*,
-                       Screened&) {
+                       std::size_t, Screened&) {
   return {0, 0};
 }
 

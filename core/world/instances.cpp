@@ -80,7 +80,11 @@ std::uint32_t Instances::body_with(std::uint32_t definition, std::size_t which) 
   body.is_plain = !body.is_wide && (which & 2u) != 0;
   if (body.is_plain) body.centre = body.definition->inner_ball().centre;
   body.is_centred = body.centre.isZero(0);
-  screens_.push_back(body.is_wide ? Screen() : screen_of(*body.definition, body.centre));
+  Screen screen = body.is_wide ? Screen() : screen_of(*body.definition, body.centre);
+  screen.first_equal = number;
+  for (const std::uint32_t other : definitions_[definition].bodies)
+    if (other < number) screen.share_with(screens_[other]);
+  screens_.push_back(std::move(screen));
   bodies_.push_back(std::move(body));
   return number;
 }

@@ -119,8 +119,9 @@ class PairScreen {
       instance[i] = instance[0];
     }
     Screened answers;
-    const ScreenBits bits = instances_.move() ? of_moving(kind, ray, instance, answers)
-                                              : screen_avx2(kind, list_, ray, instance, answers);
+    const ScreenBits bits = instances_.move()
+                                ? of_moving(kind, ray, instance, used, answers)
+                                : screen_avx2(kind, list_, ray, instance, used, answers);
     for (std::uint32_t open = bits.open & ((1u << used) - 1u); open != 0; open &= open - 1) {
       const auto lane = static_cast<std::size_t>(__builtin_ctz(open));
       if (rays_.passes(instances_, ray[lane], instance[lane])) continue;
@@ -132,7 +133,7 @@ class PairScreen {
 
   /// Screens pairs with moving instances: moves the rays to the instances' time 0.
   ScreenBits of_moving(FormKind kind, const std::uint32_t* ray, const std::uint32_t* instance,
-                       Screened& answers) const {
+                       std::size_t used, Screened& answers) const {
     std::array<Ray<double>, screen_lanes + 1> seen;  // vector loads read one item more
     std::array<float, screen_lanes> limits;
     std::array<std::uint32_t, screen_lanes> number;
@@ -143,7 +144,7 @@ class PairScreen {
     }
     const ScreenList list{reinterpret_cast<const char*>(seen.data()), sizeof(Ray<double>),
                           list_.places, list_.screens, limits.data()};
-    return screen_avx2(kind, list, number.data(), instance, answers);
+    return screen_avx2(kind, list, number.data(), instance, used, answers);
   }
 
   const Instances& instances_;

@@ -72,8 +72,8 @@ void see(const Block& block, const InstancePlace& place, const ScreenForm& form,
 /// means that the hit is not certain.
 template <class F>
 [[gnu::always_inline]] inline void look(const Seen& seen, const FormInLanes& form,
-                                        const Vec3<W>& delta, const W& box, W& first, W& last,
-                                        Mask<W>& open) {
+                                        const Vec3<W>& delta, const W& box, const Mask<W>& used,
+                                        W& first, W& last, Mask<W>& open) {
   const W &x = delta.x(), &y = delta.y(), &z = delta.z();
   Vec3<W> p, d;
   for (int row = 0; row < 3; ++row) {
@@ -89,7 +89,7 @@ template <class F>
   for (int axis = 0; axis < 3; ++axis) line.s[axis] = fma(d[axis], rest, p[axis]);
   line.E = seen.E;
   line.parallel = seen.share * line.dd;
-  const Mask<W> bounded = (line.dd > W(tolerance::screen_shortest_squared)) &
+  const Mask<W> bounded = used & (line.dd > W(tolerance::screen_shortest_squared)) &
                           (line.dd < W(tolerance::screen_longest_squared));
   const exact::Entry<W> entry = enter<F>(form, line, bounded);
   const auto slack_of = [&](const exact::Entry<W>& of) {
@@ -102,7 +102,7 @@ template <class F>
     const exact::Entry<W> exit = enter_again<F>(form, line.reversed(), behind);
     miss |= exit.hit & (seen.k + (rest - exit.t) + slack_of(exit) < W(0));
   }
-  open = !miss;
+  open = used & !miss;
   first = select(sure, lo, box);
   last = select(sure, hi, W(infinity));
 }
@@ -182,15 +182,15 @@ Looked look_at_instance(const Seen& seen, const Screen& screen, const MeetingRay
     Mask<W> open;
     const Vec3<W> delta(W::load(meeting.deltas[0] + at), W::load(meeting.deltas[1] + at),
                         W::load(meeting.deltas[2] + at));
-    look<F>(seen, form, delta, W::load(meeting.boxes + at), first, last, open);
+    const Mask<W> used = first_lanes(std::min<std::size_t>(meeting.count - at, screen_lanes));
+    look<F>(seen, form, delta, W::load(meeting.boxes + at), used, first, last, open);
     const W limit = W::load(meeting.limits + at), lo = W::load(meeting.los + at);
     open &= first <= limit;
-    const std::uint32_t used = meeting.count - at < 8 ? (1u << (meeting.count - at)) - 1u : 0xffu;
-    const std::uint32_t open_bits = lane_bits(open) & used;
+    const std::uint32_t open_bits = lane_bits(open);
     if (open_bits == 0) continue;
     Mask<W> sure = open & (last <= limit) & (last < W(infinity));
     if (!screen.is_whole) sure = Mask<W>(false);
-    const std::uint32_t replaces = lane_bits(sure & (last < lo)) & used;
+    const std::uint32_t replaces = lane_bits(sure & (last < lo));
     alignas(32) float firsts[8], lasts[8];
     first.store(firsts);
     select(sure, last, limit).store(lasts);

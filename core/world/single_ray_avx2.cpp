@@ -94,7 +94,7 @@ class Pending {
     for (std::size_t i = lanes; i < screen_lanes; ++i) same[i] = same[0];
     static constexpr std::uint32_t this_ray[screen_lanes] = {};
     Screened answers;
-    const ScreenBits bits = screen_avx2(kind, list_, this_ray, same, answers);
+    const ScreenBits bits = screen_avx2(kind, list_, this_ray, same, lanes, answers);
     for (std::uint32_t open = bits.open & ((1u << lanes) - 1u); open != 0; open &= open - 1) {
       const auto lane = static_cast<std::size_t>(__builtin_ctz(open));
       if (!add_candidate(same[lane], answers.first[lane])) return false;

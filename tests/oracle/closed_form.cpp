@@ -39,8 +39,8 @@ Interval slab(Long o, Long d, Long lower, Long upper) {
 }
 
 /// The roots of a t^2 + 2 b t + c, lower first, without cancellation; nothing if there are none.
-std::optional<Interval> roots(Long a, Long b, Long c) {
-  const Long discriminant = b * b - a * c;
+/// `discriminant` is b^2 - ac.
+std::optional<Interval> roots(Long a, Long b, Long c, Long discriminant) {
   if (!(discriminant >= 0) || a == 0) return std::nullopt;
   const Long q = -(b + std::copysign(std::sqrt(discriminant), b));
   const Long first = q / a, second = q != 0 ? c / q : first;
@@ -51,7 +51,8 @@ std::optional<Interval> roots(Long a, Long b, Long c) {
 Interval ball(const V& o, const V& d, const V& centre, Long radius) {
   const Long nearest = -(o - centre).dot(d) / d.squaredNorm();
   const V close = o + nearest * d - centre;
-  const auto t = roots(d.squaredNorm(), close.dot(d), close.squaredNorm() - radius * radius);
+  const Long a = d.squaredNorm(), b = close.dot(d), c = close.squaredNorm() - radius * radius;
+  const auto t = roots(a, b, c, b * b - a * c);
   return t ? Interval{nearest + t->lower, nearest + t->upper} : Interval{};
 }
 
@@ -76,8 +77,15 @@ Interval frustum(const V& o, const V& d, Long z0, Long r0, Long z1, Long r1) {
   const Long b = p.x() * d.x() + p.y() * d.y() - radius * slope;
   const Long c = p.x() * p.x() + p.y() * p.y() - radius * radius;
   const Interval here{between.lower - middle, between.upper - middle};
+  // From the line's moment about the apex, as b^2 - ac cancels for lines near the apex.
+  Long discriminant = b * b - a * c;
+  if (per_z != 0) {
+    const V moment = V(p.x(), p.y(), radius / per_z).cross(d);
+    discriminant = per_z * per_z * (moment.x() * moment.x() + moment.y() * moment.y()) -
+                   moment.z() * moment.z();
+  }
   Interval inside;
-  if (const auto t = roots(a, b, c)) {
+  if (const auto t = roots(a, b, c, discriminant)) {
     if (a > 0) {
       inside = both(here, *t);
     } else {  // outside of the roots: one branch per nappe; the slab holds one of them

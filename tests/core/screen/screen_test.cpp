@@ -63,6 +63,7 @@ void compare(const std::vector<PreparedShape>& shapes, const std::vector<Ray<dou
   std::array<std::uint32_t, screen_lanes> number;
   for (std::uint32_t i = 0; i < screen_lanes; ++i) {
     screens.push_back(screen_of(shapes[i].definition(), Vec3<double>::Zero()));
+    screens.back().first_equal = i;
     places.push_back(place_of(shapes[i], i));
     limits[i] = std::numeric_limits<float>::infinity();
     number[i] = i;
@@ -73,7 +74,7 @@ void compare(const std::vector<PreparedShape>& shapes, const std::vector<Ray<dou
   screen_avx2(screens[0].kind,
               {reinterpret_cast<const char*>(padded.data()), sizeof(Ray<double>), places.data(),
                screens.data(), limits.data()},
-              number.data(), number.data(), answers);
+              number.data(), number.data(), screen_lanes, answers);
   for (std::size_t i = 0; i < screen_lanes; ++i) {
     const CastResult<double> cast = cast_ray(shapes[i], rays[i]);
     const auto t = static_cast<double>(cast.t());
@@ -215,7 +216,7 @@ Said said_of(const Shape& shape, const Ray<double>& ray) {
   screen_avx2(
       screen.kind,
       {reinterpret_cast<const char*>(rays.data()), sizeof(Ray<double>), &place, &screen, &limit},
-      first.data(), first.data(), answers);
+      first.data(), first.data(), 1, answers);
   return {static_cast<double>(answers.first[0]), static_cast<double>(answers.last[0])};
 }
 
