@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
+#include <iterator>
 #include <mutex>
 #include <sstream>
 #include <string>
@@ -67,23 +68,8 @@ std::string told(const Ray<double>& ray) {
   return out.str();
 }
 
-/// The error of a filter's hit by the bound that it claims. The oracle's own error is taken off: it
-/// moves origins towards the shape, and shallow rays turn an error across the ray into a longer one
-/// along it.
-double error_by_bound(const Ray<double>& ray, const CastResult<double>& answer,
-                      const TrueEntry& entry, double radius) {
-  constexpr long double epsilon = std::numeric_limits<long double>::epsilon();
-  const long double unknown =
-      8 * epsilon * (ray.origin.norm() + radius) / (ray.direction.norm() * entry.cosine);
-  const long double error = entry.entry.t - answer.t_base - answer.t_offset;
-  const long double bound = error > 0 ? (long double)(answer.offset_hi) - answer.t_offset
-                                      : (long double)(answer.t_offset) - answer.offset_lo;
-  const long double certain = std::max(0.0L, std::abs(error) - unknown);
-  return certain == 0 ? 0 : static_cast<double>(certain / bound);
-}
-
 void judge_one(const CastJudge& judge, const Ray<double>& ray, const CastResult<double>& answer,
-               const TrueEntry& truth, double radius, Count& count) {
+               const TrueEntry& truth, Count& count) {
   const Judgement judged = judge(ray, answer, truth);
   count.doubtful += answer.path != Path::filter;
   count.exhausted += judged.verdict == Verdict::exhausted;
@@ -94,11 +80,9 @@ void judge_one(const CastJudge& judge, const Ray<double>& ray, const CastResult<
     count.first_false = std::string(name_of(answer.status)) + " at " + told(ray);
   if (judged.verdict != Verdict::right || answer.status != Status::hit) return;
   ++count.hits;
-  if (answer.path == Path::filter) {
-    const double by_bound = error_by_bound(ray, answer, truth, radius);
-    count.broken += !(by_bound <= 1);
-    count.by_bound = std::max(count.by_bound, by_bound);
-  }
+  const double by_bound = judge.error_by_bound(ray, answer, truth);
+  count.broken += !(by_bound <= 1);
+  count.by_bound = std::max(count.by_bound, by_bound);
   count.coarse += !(judged.error <= testing::allowed_error);
   count.supports_of_hits += answer.supports;
   count.most_supports = std::max(count.most_supports, answer.supports);
@@ -109,7 +93,8 @@ void judge_one(const CastJudge& judge, const Ray<double>& ray, const CastResult<
 }
 
 struct Candidate {
-  explicit Candidate(const Shape& of) : shape(of), prepared(of), judge(of) {}
+  explicit Candidate(const testing::MeasuredShape& of)
+      : shape(of.same), prepared(of.shape), judge(of.same) {}
 
   Shape shape;
   PreparedShape prepared;
@@ -125,7 +110,7 @@ Count cast_many(const Candidate& candidate, testing::RayFamily family, long rays
     const Ray<double> ray = source.next();
     const CastResult<double> answer = cast_ray(candidate.prepared, ray);
     const TrueEntry truth = candidate.judge.truth(ray, answer.normal);
-    judge_one(candidate.judge, ray, answer, truth, source.ball().radius, count);
+    judge_one(candidate.judge, ray, answer, truth, count);
   }
   return count;
 }
@@ -160,10 +145,12 @@ int main(int argc, char** argv) {
             << std::setw(5) << "max"
             << "\n";
   bool is_good = true, is_any = false;
-  for (const testing::MeasuredShape& subject : testing::measured_shapes()) {
+  std::vector<testing::MeasuredShape> subjects = testing::measured_shapes();
+  std::ranges::move(testing::derived_shapes(), std::back_inserter(subjects));
+  for (const testing::MeasuredShape& subject : subjects) {
     if (subject.name.find(wanted) == std::string::npos) continue;
     is_any = true;
-    const Candidate candidate(subject.shape);
+    const Candidate candidate(subject);
     for (const testing::RayFamilyDescription& family : testing::ray_families) {
       const bool is_random = family.family == testing::RayFamily::random;
       const long count = std::max(is_random ? rays : rays / 10, 1L);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "core/cast/enclosed_ray.h"
@@ -32,9 +33,8 @@ bool has_stage(const PreparedShape& shape, const CastOptions& options, Stage sta
   return std::find(stages.begin(), stages.end(), stage) != stages.end();
 }
 
-/// Runs the policy's stages until the judge accepts a result. The result's normal is in the inner
-/// frame.
-CastResult<double> ask_stages(const StageQuestion& question) {
+/// Runs the policy's stages until the judge accepts a result.
+CastResult<double> answer_of_stages(const StageQuestion& question) {
   const Policy& policy = policy_of(question.options.solver, kind_of(question.shape.definition()));
   const bool exact = is_exact(question.options);
   Judge judge(question, exact ? policy.proof : Proof::none);
@@ -63,6 +63,16 @@ CastResult<double> ask_stages(const StageQuestion& question) {
     }
   }
   return judge.verdict();
+}
+
+/// Runs the stages. The result's normal is in the inner frame.
+CastResult<double> ask_stages(const StageQuestion& question) {
+  CastResult<double> found = answer_of_stages(question);
+  const bool is_checked = question.options.solver == SolverKind::automatic &&
+                          is_exact(question.options) && found.status == Status::hit;
+  if (is_checked && -found.normal.dot(question.near.r) < tolerance::bounded_slope<double>)
+    found.offset_hi = std::numeric_limits<double>::infinity();
+  return found;
 }
 
 /// Runs the stages. If the ray's position in the inner frame is uncertain, the result holds for all

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The body of the packet casts. MINKRAY_PACKET_KERNEL is the function's name. All other names
 // include the type of the lanes, and so the instruction set: see core/math/wide.h.
+#include <algorithm>
 #include <utility>
 
 #include "core/cast/packet_kernel.h"
@@ -66,10 +67,9 @@ void part(const PreparedShape& shape, const RayPacket& rays, LaneBits lanes, boo
   keep_on_ray(ray, result);
   // Leaves uncertain lanes to single casts.
   Mask<W> hit = result.hit & in_range & numbers, inside = result.inside & numbers;
-  if (const double uncertain = shape.definition().uncertain_slope(); uncertain > 0.0) {
-    hit &= -result.normal.dot(near.r) >= W(uncertain);
-    inside &= !result.uncertain;
-  }
+  const double uncertain = shape.definition().uncertain_slope();
+  hit &= -result.normal.dot(near.r) >= W(std::max(uncertain, tolerance::bounded_slope<double>));
+  if (uncertain > 0.0) inside &= !result.uncertain;
   answers.hit |= lane_bits(hit) << from;
   answers.inside |= lane_bits(inside) << from;
   const Mask<W> has_plane = normal.squaredNorm() > W(0.0);

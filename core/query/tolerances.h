@@ -77,6 +77,12 @@ inline constexpr T uncertain_slope = T(0x1p-7);
 template <class T>
 inline constexpr T uncertain_smooth_slope = T(0x1p-12);
 
+/// Hits at planes with a smaller slope than this lose the stages' upper bound of t, and get another
+/// if a triangle of support points proves one (enclosed_ray.h). Such a ray is within some 1e-12 R
+/// of the surface over a length at which rounding of support points across the ray matters.
+template <class T>
+inline constexpr T bounded_slope = T(0x1p-20);
+
 /// Rounding of points to which a map is applied, in units of the summands' magnitude. The sum of
 /// half an epsilon each for three products, their sums and the inverse map's numbers, and the same
 /// again for the entries of a rotation matrix that was computed from a quaternion.

@@ -48,7 +48,19 @@ class CastJudge {
   Judgement operator()(const Ray<double>& ray, const CastResult<double>& answer,
                        const TrueEntry& truth) const;
 
+  /// The error of a right hit by the bound that it claims: above 1, the interval does not contain
+  /// the true t. The oracle's own error is taken off: it moves origins towards the shape, and
+  /// shallow rays turn an error across the ray into a longer one along it. If the ray meets an
+  /// edge, so that moving it by half an epsilon of R changes t beyond the interval's end,
+  /// returns 1.
+  double error_by_bound(const Ray<double>& ray, const CastResult<double>& answer,
+                        const TrueEntry& truth) const;
+
  private:
+  /// Entry of the ray after a move.
+  TrueEntry truth(const Ray<double>& ray, const Vec3<long double>& move,
+                  const Vec3<double>& normal) const;
+  bool meets_edge(const Ray<double>& ray, long double end, bool is_upper) const;
   double cosine_at(const Ray<double>& ray, long double t, const Vec3<double>& normal) const;
 
   Shape shape_;

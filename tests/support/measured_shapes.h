@@ -13,6 +13,7 @@ namespace minkray::testing {
 struct MeasuredShape {
   std::string name;
   Shape shape;
+  Shape same = shape;  ///< the same set of points, made so that the oracle knows it
 };
 
 /// Printed by GoogleTest instead of bytes.
@@ -21,6 +22,8 @@ inline void PrintTo(const MeasuredShape& measured, std::ostream* out) {
 }
 
 std::vector<MeasuredShape> measured_shapes();
+/// Sums, differences and hulls of shapes that equal a simpler shape.
+std::vector<MeasuredShape> derived_shapes();
 
 /// Makes the shape `scale` times as large.
 Shape scaled(const Shape& shape, double scale);
