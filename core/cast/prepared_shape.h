@@ -51,7 +51,6 @@ class PreparedShape {
   }
 
   const Definition& definition() const { return *definition_; }
-  const std::shared_ptr<const Definition>& shared_definition() const { return definition_; }
   /// Centre of the bounding ball in the outer frame: centre() is rounded to double, as closed forms
   /// use it; two_fold_centre() has twice the digits.
   const Vec3<double>& centre() const { return centre_.high; }

@@ -142,31 +142,10 @@ LineHit<W> first_on_line(Model& model, const Vec3<Lane<W>>& half_extents, const 
   return result;
 }
 
-/// Returns the unit normal where the line s + lambda r first meets the ellipsoid around the origin
-/// with these radii, all positive. If the line misses the ellipsoid, returns the ellipsoid's normal
-/// towards the line, perpendicular to r. `meets` is set for lines that meet the ellipsoid.
-template <class W>
-Vec3<W> normal_on_ellipsoid(const Vec3<Lane<W>>& radii, const Vec3<W>& s, const Vec3<W>& r,
-                            Mask<W>& meets) {
-  using std::max;
-  using std::sqrt;
-  const Vec3<W> to_ball = widen<W>(Vec3<Lane<W>>(radii.cwiseInverse()));
-  const Vec3<W> r_ball = unit<W>(r.cwiseProduct(to_ball));
-  const Vec3<W> s_ball = s.cwiseProduct(to_ball);
-  // Uses cross products, which keep the digits of small components.
-  const Vec3<W> crosswise = r_ball.cross(s_ball.cross(r_ball));
-  const W den = W(1) - crosswise.squaredNorm();
-  meets = den > W(0);
-  const W depth = sqrt(max(den, W(0)));
-  Vec3<W> n = unit<W>(Vec3<W>((crosswise - r_ball * depth).cwiseProduct(to_ball)));
-  if (!all(meets)) n = select<W>(meets, n, unit<W>(Vec3<W>(n - r * n.dot(r))));
-  const Mask<W> some = n.squaredNorm() > W(0);
-  return all(some) ? n : select<W>(some, n, Vec3<W>(-r));
-}
-
-/// Same as normal_on_ellipsoid, approximately, for any shape with these half extents. Used as the
-/// first direction for the support mapping. Extents that are negligible compared with the largest
-/// are increased slightly.
+/// Approximates the unit normal where the line s + lambda r first meets a shape around the origin
+/// with these half extents, as if it were an ellipsoid; if it passes, the normal towards the line,
+/// perpendicular to r. The first direction for the support mapping. Extents that are negligible
+/// compared with the largest are increased slightly.
 template <class W>
 Vec3<W> normal_on_extents(const Vec3<Lane<W>>& half_extents, const Vec3<W>& s, const Vec3<W>& r) {
   using std::max;

@@ -353,7 +353,7 @@ SweptStatus swept_impact(const ContactShape& a, const RigidMotion& motion_a, con
   double begin = time_near(between.x, velocity, size, t_max);
   if (begin > 0) {
     const Between then = between_at(begin, first, of_first, second, of_second);
-    // Times may have too few digits to tell when the bodies are near.
+    // Times may have too few digits to be that exact.
     if (then.x.norm() > 2 * size && then.x.dot(velocity) < 0)
       between = then;
     else

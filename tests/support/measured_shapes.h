@@ -13,7 +13,7 @@ namespace minkray::testing {
 struct MeasuredShape {
   std::string name;
   Shape shape;
-  Shape same = shape;  ///< the same set of points, made so that the oracle knows it
+  Shape same = shape;  ///< the same set of points, as a shape that the oracle has
 };
 
 /// Printed by GoogleTest instead of bytes.
