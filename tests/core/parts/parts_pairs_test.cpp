@@ -154,6 +154,30 @@ TEST(MeshPairs, what_is_within_a_closed_mesh_overlaps_it_and_in_a_hole_does_not)
   EXPECT_EQ(signed_distance(*small, {}, *large, {}).status, SignedStatus::overlapping);
 }
 
+TEST(MeshPairs, overlap_though_edges_lie_on_edges) {
+  const MeshPointer cube = testing::block({1, 1, 1}).shared();
+  const auto status = [&](const PartsBody& other, const Vec3<double>& at) {
+    const Affine<double> pose{Mat3<double>::Identity(), at};
+    const SignedDistance found = signed_distance(*cube, {}, other, pose);
+    EXPECT_EQ(signed_distance(other, pose, *cube, {}).status, found.status);
+    EXPECT_EQ(found.value, 0);
+    return found.status;
+  };
+  for (const Vec3<double>& at :
+       {Vec3<double>(0, 0, 0), Vec3<double>(0.5, 0, 0), Vec3<double>(1, 0, 0),
+        Vec3<double>(1.5, 0, 0), Vec3<double>(0.5, 0.5, 0), Vec3<double>(1, 1, 1)})
+    EXPECT_EQ(status(*cube, at), SignedStatus::overlapping) << at.transpose();
+  for (const Vec3<double>& at :
+       {Vec3<double>(2, 0, 0), Vec3<double>(2, 1, 0.5), Vec3<double>(2, 2, 2)})
+    EXPECT_NE(status(*cube, at), SignedStatus::overlapping) << at.transpose();
+  // Through the middle of a face, where its diagonal is; and in the face.
+  const ContactShape into{Shape(Segment{{Vec3<double>(-1, 0, 0), Vec3<double>(1, 0, 0)}})};
+  EXPECT_EQ(status(into, {1.5, 0, 0}), SignedStatus::overlapping);
+  EXPECT_NE(status(into, {2, 0, 0}), SignedStatus::overlapping);
+  const ContactShape along{Shape(Segment{{Vec3<double>(0, 0, 0), Vec3<double>(0, 0.5, 0)}})};
+  EXPECT_NE(status(along, {1, 0, 0}), SignedStatus::overlapping);
+}
+
 TEST(MeshPairs, first_touch_when_a_part_is_first_touched) {
   const MeshPointer ring = testing::torus(12, 8).shared();
   const std::vector<ContactShape> of_ring = parts(*ring);
