@@ -5,6 +5,7 @@
 
 #include "core/mesh/mesh_walk.h"
 #include "core/mesh/perturbed_line.h"
+#include "core/mesh/repeats.h"
 
 namespace minkray {
 namespace {
@@ -31,7 +32,7 @@ int order_of(const TriangleMesh& mesh, const Ray<double>& ray, const PartHit& a,
 }
 
 /// The triangles that the moved ray passes, by t: all up to ray.t_max, and all beyond it that may
-/// come before one of these.
+/// come before one of these. Repeated triangles count once.
 std::vector<PartHit> passed_parts(const TriangleMesh& mesh, const Ray<double>& ray) {
   Ray<double> further = ray;
   further.t_max = ray.t_max * (1 + 0x1p-40);
@@ -48,6 +49,7 @@ std::vector<PartHit> passed_parts(const TriangleMesh& mesh, const Ray<double>& r
     further.t_max = ray.t_max + 2 * error;
   }
   std::ranges::sort(hits, [](const PartHit& a, const PartHit& b) { return b.yields_to(a); });
+  erase_repeats(mesh, hits);
   return hits;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/mesh/exact_sign.h"
 #include "core/mesh/mesh_walk.h"
+#include "core/mesh/repeats.h"
 
 namespace minkray {
 namespace {
@@ -174,7 +175,8 @@ bool is_within(const TriangleMesh& mesh, const Vec3<double>& point) {
   constexpr int most_tries = 64;
   for (int i = 1; i <= most_tries; ++i) {
     const Vec3<double> direction(std::sin(1.3 * i), std::cos(0.7 * i), std::sin(2.9 * i + 0.4));
-    const std::vector<PartHit> hits = all_parts(mesh, {point, direction});
+    std::vector<PartHit> hits = all_parts(mesh, {point, direction});
+    erase_repeats(mesh, hits);
     if (std::ranges::any_of(hits, &PartHit::is_at_edge)) continue;
     const double at_surface = 1e-12 * (mesh.reach() + point.norm());
     if (!hits.empty() && hits[0].t <= at_surface) return false;

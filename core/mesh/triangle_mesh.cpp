@@ -167,22 +167,28 @@ MeshFaults TriangleMesh::faults() const {
   std::vector<Edge> edges;
   edges.reserve(3 * triangles_.size());
   const std::vector<std::uint32_t> place = first_at_place(vertices_);
-  std::vector<Corners> sorted(triangles_);
-  for (Corners& triangle : sorted)
+  // The least vertex is first, so that repeats are equal.
+  std::vector<Corners> turned(triangles_);
+  for (Corners& triangle : turned) {
     for (std::uint32_t& corner : triangle) corner = place[corner];
-  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-    const Corners t = sorted[i];
-    if (normal(i).isZero(0)) ++faults.without_area;
+    std::ranges::rotate(triangle, std::ranges::min_element(triangle));
+  }
+  for (std::uint32_t i = 0; i < turned.size(); ++i)
+    faults.without_area += normal(i).isZero(0) ? 1 : 0;
+  std::ranges::sort(turned);
+  const std::size_t size = turned.size();
+  turned.erase(std::ranges::unique(turned).begin(), turned.end());
+  for (const Corners& t : turned)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t from = t[k], to = t[(k + 1) % 3];
       if (from == to) continue;
       edges.push_back({std::min(from, to), std::max(from, to), from < to ? 1 : -1});
     }
-    std::ranges::sort(sorted[i]);
-  }
-  std::ranges::sort(sorted);
-  for (std::size_t i = 1; i < sorted.size(); ++i)
-    faults.repeated += sorted[i] == sorted[i - 1] ? 1 : 0;
+  for (Corners& triangle : turned) std::ranges::sort(triangle);
+  std::ranges::sort(turned);
+  faults.repeated = size - turned.size();
+  for (std::size_t i = 1; i < turned.size(); ++i)
+    faults.repeated += turned[i] == turned[i - 1] ? 1 : 0;
   std::ranges::sort(edges, {}, [](const Edge& e) { return std::pair(e.from, e.to); });
   for (std::size_t i = 0; i < edges.size();) {
     int balance = 0;

@@ -28,7 +28,9 @@ inline constexpr std::uint32_t no_part = ~std::uint32_t{0};
 struct MeshFaults {
   std::size_t without_area = 0;  ///< triangles without area
   std::size_t repeated = 0;      ///< triangles with the same vertices as another
-  std::size_t open_edges = 0;  ///< edges that triangles do not use equally often in both directions
+  /// edges that triangles do not use equally often in both directions; repeats with the same order
+  /// of vertices count once
+  std::size_t open_edges = 0;
   bool is_closed() const { return open_edges == 0; }
 };
 

@@ -156,44 +156,10 @@ class Manifold {
     }
   }
 
-  /// Picks the nearest point, the point furthest from it, the one that makes the largest triangle
-  /// with both, and the one on the other side that adds the most area. Skips points closer to a
-  /// picked one than `near`.
-  ContactManifold best(double near) const {
-    ContactManifold result;
-    result.normal = nearest_.normal;
-    result.points[0] = {nearest_.point_a, nearest_.point_b, nearest_.value};
-    result.count = 1;
-    const auto at = [&](std::size_t k) -> const Vec3<double>& { return result.points[k].point_a; };
-    const auto twice_area = [&](std::size_t i, std::size_t j, const Vec3<double>& p) {
-      return (at(j) - at(i)).cross(p - at(i)).dot(nearest_.normal);
-    };
-    const auto take = [&](auto&& worth, double least) {
-      double most = least;
-      const ContactPoint* found = nullptr;
-      for (int i = 0; i < count_; ++i) {
-        const ContactPoint& point = all_[static_cast<std::size_t>(i)];
-        const double w = worth(point.point_a);
-        if (!(w > most)) continue;
-        most = w;
-        found = &point;
-      }
-      if (found) result.points[static_cast<std::size_t>(result.count++)] = *found;
-      return found != nullptr;
-    };
-    if (!take([&](const Vec3<double>& p) { return (p - at(0)).norm(); }, near)) return result;
-    const double edge = near * (at(1) - at(0)).norm();
-    if (!take([&](const Vec3<double>& p) { return std::abs(twice_area(0, 1, p)); }, edge))
-      return result;
-    const double sign = twice_area(0, 1, at(2)) < 0 ? -1 : 1;
-    take(
-        [&](const Vec3<double>& p) {
-          return std::max({-sign * twice_area(0, 1, p), -sign * twice_area(1, 2, p),
-                           -sign * twice_area(2, 0, p)});
-        },
-        edge);
-    return result;
+  std::span<const ContactPoint> points() const {
+    return {all_.data(), static_cast<std::size_t>(count_)};
   }
+  ContactPoint nearest() const { return {nearest_.point_a, nearest_.point_b, nearest_.value}; }
 
  private:
   const SignedDistance& nearest_;
@@ -204,14 +170,12 @@ class Manifold {
   int count_ = 0;
 };
 
-}  // namespace
-
-ContactManifold contact_manifold(const ContactShape& a, const Affine<double>& pose_a,
-                                 const ContactShape& b, const Affine<double>& pose_b,
-                                 const SignedDistance& nearest, const ManifoldOptions& options) {
-  if (nearest.normal.isZero(0) || nearest.is_unknown()) return {};
+/// Corners of the part that the faces of both shapes share.
+Manifold all_points(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
+                    const Affine<double>& pose_b, const SignedDistance& nearest,
+                    const ManifoldOptions& options, double size) {
   constexpr double same = 1e-6;
-  const double size = std::min(a.ball_radius(), b.ball_radius()), near = same * size;
+  const double near = same * size;
   const Vec3<double> from_middle = nearest.point_a - middle_in_world(a, pose_a);
   Manifold manifold(nearest, from_middle, options);
   const Seen seen_a{a, turn_in_world(a, pose_a), Vec3<double>::Zero()},
@@ -222,8 +186,69 @@ ContactManifold contact_manifold(const ContactShape& a, const Affine<double>& po
       of_a.count <= of_b.count ? clipped(of_a, of_b, near) : clipped(of_b, of_a, near);
   const bool has_face = std::max(of_a.count, of_b.count) > 2;
   if (has_face) manifold.add(common, of_a, of_b, options.within * size);
+  return manifold;
+}
+
+double size_of(const ContactShape& a, const ContactShape& b) {
+  return std::min(a.ball_radius(), b.ball_radius());
+}
+
+}  // namespace
+
+ContactManifold contact_manifold(const ContactShape& a, const Affine<double>& pose_a,
+                                 const ContactShape& b, const Affine<double>& pose_b,
+                                 const SignedDistance& nearest, const ManifoldOptions& options) {
+  if (nearest.normal.isZero(0) || nearest.is_unknown()) return {};
+  const double size = size_of(a, b);
+  const Manifold manifold = all_points(a, pose_a, b, pose_b, nearest, options, size);
   // The tilt moves support points of curved surfaces by this distance.
-  return manifold.best(3 * std::tan(options.tilt) * size);
+  return spread_points(nearest.normal, manifold.nearest(), manifold.points(),
+                       3 * std::tan(options.tilt) * size);
+}
+
+void add_contact_points(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
+                        const Affine<double>& pose_b, const SignedDistance& nearest,
+                        std::vector<ContactPoint>& to, const ManifoldOptions& options) {
+  if (nearest.normal.isZero(0) || nearest.is_unknown()) return;
+  const Manifold manifold = all_points(a, pose_a, b, pose_b, nearest, options, size_of(a, b));
+  to.push_back(manifold.nearest());
+  to.insert(to.end(), manifold.points().begin(), manifold.points().end());
+}
+
+ContactManifold spread_points(const Vec3<double>& normal, const ContactPoint& first,
+                              std::span<const ContactPoint> points, double near) {
+  ContactManifold result;
+  result.normal = normal;
+  result.points[0] = first;
+  result.count = 1;
+  const auto at = [&](std::size_t k) -> const Vec3<double>& { return result.points[k].point_a; };
+  const auto twice_area = [&](std::size_t i, std::size_t j, const Vec3<double>& p) {
+    return (at(j) - at(i)).cross(p - at(i)).dot(normal);
+  };
+  const auto take = [&](auto&& worth, double least) {
+    double most = least;
+    const ContactPoint* found = nullptr;
+    for (const ContactPoint& point : points) {
+      const double w = worth(point.point_a);
+      if (!(w > most)) continue;
+      most = w;
+      found = &point;
+    }
+    if (found) result.points[static_cast<std::size_t>(result.count++)] = *found;
+    return found != nullptr;
+  };
+  if (!take([&](const Vec3<double>& p) { return (p - at(0)).norm(); }, near)) return result;
+  const double edge = near * (at(1) - at(0)).norm();
+  if (!take([&](const Vec3<double>& p) { return std::abs(twice_area(0, 1, p)); }, edge))
+    return result;
+  const double sign = twice_area(0, 1, at(2)) < 0 ? -1 : 1;
+  take(
+      [&](const Vec3<double>& p) {
+        return std::max({-sign * twice_area(0, 1, p), -sign * twice_area(1, 2, p),
+                         -sign * twice_area(2, 0, p)});
+      },
+      edge);
+  return result;
 }
 
 }  // namespace minkray

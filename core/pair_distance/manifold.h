@@ -7,6 +7,8 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <vector>
 
 #include "core/pair_distance/signed_distance.h"
 
@@ -39,5 +41,17 @@ ContactManifold contact_manifold(const ContactShape& a, const Affine<double>& po
                                  const ContactShape& b, const Affine<double>& pose_b,
                                  const SignedDistance& nearest,
                                  const ManifoldOptions& options = {});
+
+/// Appends the nearest points and all corners of the part that both faces share.
+/// contact_manifold() keeps at most four of these.
+void add_contact_points(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
+                        const Affine<double>& pose_b, const SignedDistance& nearest,
+                        std::vector<ContactPoint>& to, const ManifoldOptions& options = {});
+
+/// Returns `first`, the point furthest from it, the one that makes the largest triangle with both,
+/// and the one on the other side that adds the most area. Skips points closer to a picked one than
+/// `near`.
+ContactManifold spread_points(const Vec3<double>& normal, const ContactPoint& first,
+                              std::span<const ContactPoint> points, double near);
 
 }  // namespace minkray

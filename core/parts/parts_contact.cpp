@@ -34,16 +34,6 @@ bool has_other_lowest(const TriangleMesh& mesh, const Affine<double>& pose,
 
 }  // namespace
 
-ContactManifold contact_manifold(const PartsBody& a, const Affine<double>& pose_a,
-                                 const PartsBody& b, const Affine<double>& pose_b) {
-  PartPair parts;
-  signed_distance(a, pose_a, b, pose_b, {}, &parts);
-  if (!has_parts(parts, a, b)) return {};
-  const OnePart of_a(a, parts.a), of_b(b, parts.b);
-  return contact_manifold(of_a.shape(), pose_a, of_b.shape(), pose_b,
-                          signed_distance(of_a.shape(), pose_a, of_b.shape(), pose_b));
-}
-
 PairDerivative derivative_of(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
                              const Affine<double>& pose_b) {
   PartPair parts;

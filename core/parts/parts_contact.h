@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Contact points of two bodies, and derivatives of their distance and time of impact. Uses the two
-// parts that are nearest or touch first.
+// Contact points of two bodies, and derivatives of their distance and time of impact. Derivatives
+// are those of the two parts that are nearest or touch first.
 #pragma once
 
 #include "core/pair_derivative/pair_derivative.h"
@@ -9,8 +9,9 @@
 
 namespace minkray {
 
-/// Returns contact points of the two parts that are nearest or that cross. Returns no points if one
-/// body is inside the other and their surfaces do not cross.
+/// Returns contact points of the pairs of parts that are about as near as the nearest and have
+/// about the same normal, at most four points in all, spread out. points[0] is as near as the
+/// nearest. Returns no points if one body is inside the other and their surfaces do not cross.
 ContactManifold contact_manifold(const PartsBody& a, const Affine<double>& pose_a,
                                  const PartsBody& b, const Affine<double>& pose_b);
 

@@ -206,6 +206,75 @@ class LeastDistance {
   bool is_crossed_ = false, is_exhausted_ = false;
 };
 
+/// True if the point is inside a closed mesh and not at its surface.
+bool is_surely_within(const PartsBody& body, const Affine<double>& pose,
+                      const Vec3<double>& point) {
+  const TriangleMesh& mesh = *body.mesh();
+  if (!is_within(mesh, pose.linear.transpose() * (point - pose.translation))) return false;
+  static const ContactShape alone{Shape(Point())};
+  Affine<double> at_point;
+  at_point.translation = point;
+  constexpr double rounding = 1e-13;
+  const double least = rounding * (mesh.reach() + pose.translation.norm() + point.norm());
+  LeastDistance distance(body, pose, alone, at_point, {});
+  return distance.run(infinity, nullptr, {}).lower > least;
+}
+
+/// Returns one of some points of a convex shape that is inside the mesh.
+std::optional<Vec3<double>> point_of_shape_within(const ContactShape& shape,
+                                                  const Affine<double>& pose, const PartsBody& mesh,
+                                                  const Affine<double>& pose_mesh) {
+  constexpr double nearly = 1 - 0x1p-10;
+  const Vec3<double> middle = middle_in_world(shape, pose);
+  const Mat3<double> turn = turn_in_world(shape, pose);
+  for (int i = 0; i < 6; ++i) {
+    const Vec3<double> d = (i < 3 ? 1.0 : -1.0) * Vec3<double>::Unit(i % 3);
+    const Vec3<double> end = support_of_core<CoreKind::other>(shape.core(), d).point;
+    const Vec3<double> point = middle + nearly * (turn * end);
+    if (is_surely_within(mesh, pose_mesh, point)) return point;
+  }
+  return {};
+}
+
+/// Returns a point on the surface of `one`, or a little below it, that is inside both meshes. Tries
+/// the middles of some triangles.
+std::optional<Vec3<double>> point_of_mesh_within(const PartsBody& one, const Affine<double>& pose,
+                                                 const PartsBody& other,
+                                                 const Affine<double>& pose_other) {
+  constexpr std::size_t most_tries = 24;
+  constexpr double below = 0x1p-10;
+  const TriangleMesh& mesh = *one.mesh();
+  const Bounds<double> box = bounds_of(other, pose_other);
+  std::vector<std::uint32_t> near;
+  const auto middle_of_part = [&](std::uint32_t part) {
+    return Vec3<double>((mesh.corner(part, 0) + mesh.corner(part, 1) + mesh.corner(part, 2)) / 3);
+  };
+  for (std::uint32_t part = 0; part < mesh.size(); ++part) {
+    const Vec3<double> middle = pose(middle_of_part(part));
+    if ((middle.array() >= box.lower.array()).all() && (middle.array() <= box.upper.array()).all())
+      near.push_back(part);
+  }
+  const std::size_t step = near.size() / most_tries + 1;
+  for (std::size_t i = 0; i < near.size(); i += step) {
+    const Vec3<double> middle = middle_of_part(near[i]);
+    const Vec3<double> on = pose(middle);
+    if (is_surely_within(other, pose_other, on)) return on;
+    const Vec3<double> in = pose(middle - below * mesh.reach() * mesh.normal(near[i]));
+    if (is_surely_within(other, pose_other, in) && is_surely_within(one, pose, in)) return in;
+  }
+  return {};
+}
+
+/// Returns a point inside both bodies though no two parts surely cross: edges may lie on edges.
+std::optional<Vec3<double>> common_point(const PartsBody& a, const Affine<double>& pose_a,
+                                         const PartsBody& b, const Affine<double>& pose_b) {
+  if (!a.mesh()) return point_of_shape_within(*a.shape(), pose_a, b, pose_b);
+  if (!b.mesh()) return point_of_shape_within(*b.shape(), pose_b, a, pose_a);
+  if (!a.mesh()->is_closed() || !b.mesh()->is_closed()) return {};
+  const auto of_a = point_of_mesh_within(a, pose_a, b, pose_b);
+  return of_a ? of_a : point_of_mesh_within(b, pose_b, a, pose_a);
+}
+
 void set_overlapping(SignedDistance& found) {
   found.status = SignedStatus::overlapping;
   found.value = found.lower = found.upper = 0;
@@ -227,9 +296,11 @@ SignedDistance signed_distance(const PartsBody& a, const Affine<double>& pose_a,
     return signed_distance(*a.shape(), pose_a, *b.shape(), pose_b, options);
   // If one body is inside the other, the status is known: search only for parts that cross (limit
   // 0).
-  const std::optional<Vec3<double>> within = point_within(a, pose_a, b, pose_b);
+  std::optional<Vec3<double>> within = point_within(a, pose_a, b, pose_b);
   LeastDistance least(a, pose_a, b, pose_b, options);
   SignedDistance found = least.run(options.only_sign || within ? 0 : options.at_most, parts, first);
+  const bool is_open = !least.is_crossed() && found.status != SignedStatus::separated;
+  if (is_open && !within) within = common_point(a, pose_a, b, pose_b);
   if (least.is_crossed()) {
     set_overlapping(found);
   } else if (within) {

@@ -25,6 +25,14 @@ Ray<double> seen_by(const PosedMesh& posed, const Ray<double>& ray) {
           ray.t_max};
 }
 
+/// Least t of a ray's hits at the mesh that it leaves.
+double least_t_leaving(const PosedMesh& posed, const Ray<double>& ray) {
+  const Ray<double> seen = seen_by(posed, ray);
+  const double reach =
+      posed.mesh->bounds().reach_of_centre().maxCoeff() + seen.origin.cwiseAbs().maxCoeff();
+  return leaving_mesh * reach / seen.direction.cwiseAbs().maxCoeff();
+}
+
 /// True if the ray's line passes outside of one edge of the triangle and inside of another, by
 /// exact arithmetic in the mesh's frame. No plane proves this where the line grazes an edge.
 bool passes_beside(const PosedMesh& posed, std::uint32_t part, const Ray<double>& ray) {
@@ -87,10 +95,12 @@ bool is_met_no_sooner(const PosedMesh& posed, std::uint32_t part, const Ray<doub
   return found.holds && found.t_base + found.offset_planes >= t_max - rounding;
 }
 
-/// Proves that all triangles but one are missed up to t_max; else returns the verdict of one that
-/// is not.
-CertificateVerdict all_missed(const PosedMesh& posed, Ray<double> ray, double t_max,
+/// Proves that all triangles but one are missed from t_min to t_max; else returns the verdict of
+/// one that is not.
+CertificateVerdict all_missed(const PosedMesh& posed, Ray<double> ray, double t_min, double t_max,
                               std::uint32_t but) {
+  if (t_min > 0) ray.origin += t_min * ray.direction;
+  t_max = std::max(0.0, t_max - t_min);
   ray.t_max = t_max;
   Claim miss;
   miss.status = Status::miss;
@@ -110,9 +120,11 @@ CertificateVerdict all_missed(const PosedMesh& posed, Ray<double> ray, double t_
 }  // namespace
 
 CertificateVerdict verdict_of(const PosedMesh& posed, const Ray<double>& ray, const Claim& claim,
-                              Certificate* found) {
+                              bool leaves, Certificate* found) {
   const bool is_behind = comes_from_behind(posed, ray);
-  if (claim.status == Status::miss && !is_behind) return all_missed(posed, ray, ray.t_max, no_part);
+  const double t_min = leaves ? least_t_leaving(posed, ray) : 0;
+  if (claim.status == Status::miss && !is_behind)
+    return all_missed(posed, ray, t_min, ray.t_max, no_part);
   CertificateVerdict verdict;
   verdict.holds = claim.status == Status::miss;
   if (verdict.holds) return verdict;
@@ -132,7 +144,7 @@ CertificateVerdict verdict_of(const PosedMesh& posed, const Ray<double>& ray, co
     // Triangles with a common edge are met at one place to rounding.
     const double rounding = hit.allowed / ray.direction.norm();
     const double before = std::max(0.0, hit.t_lo() - rounding);
-    const CertificateVerdict others = all_missed(posed, ray, before, part);
+    const CertificateVerdict others = all_missed(posed, ray, t_min, before, part);
     if (!others.holds) {
       verdict = others;
       verdict.complaint = "a triangle is met before";

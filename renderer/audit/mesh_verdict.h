@@ -8,9 +8,10 @@
 
 namespace minkray {
 
-/// A hit is proven by one triangle, and by all others being missed before it. `found` receives the
-/// certificate of the triangle that is hit.
+/// A hit is proven by one triangle, and by all others being missed before it. `leaves`: the ray
+/// starts on the mesh, so misses are proven from leaving_mesh on. `found` receives the certificate
+/// of the triangle that is hit.
 CertificateVerdict verdict_of(const PosedMesh& posed, const Ray<double>& ray, const Claim& claim,
-                              Certificate* found = nullptr);
+                              bool leaves = false, Certificate* found = nullptr);
 
 }  // namespace minkray

@@ -77,11 +77,12 @@ RayAudit::RayAudit(const Scene& scene, const World& world) : scene_(scene), worl
 }
 
 CertificateVerdict RayAudit::verdict(std::uint32_t instance, const Ray<double>& ray,
-                                     const Claim& claim) {
+                                     std::uint32_t skip, const Claim& claim) {
   ++certificates_;
   if (const auto& half_space = targets_[instance].half_space)
     return verdict_of(*half_space, ray, claim);
-  if (const auto& mesh = targets_[instance].mesh) return verdict_of(*mesh, ray, claim);
+  if (const auto& mesh = targets_[instance].mesh)
+    return verdict_of(*mesh, ray, claim, instance == skip);
   const SupportFunction support = supports_of(targets_[instance].shape);
   return check_certificate(support, ray, claim, certify(support, ray, claim));
 }
@@ -109,14 +110,19 @@ bool RayAudit::may_meet(RayKind kind, std::uint32_t instance, const Ray<double>&
          may_pass(targets_[instance].bounds, ray);
 }
 
-/// All but two: the one that the ray leaves, and the one that it meets.
+/// A ray cannot meet a convex shape again that it leaves, but it can meet a mesh.
+bool RayAudit::is_ignored(std::uint32_t instance, std::uint32_t skip) const {
+  return instance == skip && !targets_[instance].mesh;
+}
+
+/// All but two: the shape that the ray leaves, and the object that it meets.
 bool RayAudit::all_missed(RayKind kind, const Ray<double>& ray, std::uint32_t skip,
                           std::uint32_t met) {
   Claim miss;
   miss.status = Status::miss;
   for (std::uint32_t i = 0; i < targets_.size(); ++i) {
-    if (i == skip || i == met || !may_meet(kind, i, ray)) continue;
-    const CertificateVerdict answer = verdict(i, ray, miss);
+    if (is_ignored(i, skip) || i == met || !may_meet(kind, i, ray)) continue;
+    const CertificateVerdict answer = verdict(i, ray, skip, miss);
     if (answer.holds) continue;
     fail(kind, i, ray, met == no_instance ? "not proven to be missed" : "is met before");
     return false;
@@ -131,7 +137,7 @@ void RayAudit::closest(RayKind kind, const Ray<double>& ray, std::uint32_t skip,
     all_missed(kind, ray, skip, no_instance);
     return;
   }
-  const CertificateVerdict hit = verdict(answer.instance, ray, claim_of(answer.cast));
+  const CertificateVerdict hit = verdict(answer.instance, ray, skip, claim_of(answer.cast));
   if (!hit.holds) return fail(kind, answer.instance, ray, hit.complaint);
   if (answer.cast.status == Status::inside) return;
   // If two objects touch, rounding decides which one is met first.
@@ -147,13 +153,13 @@ void RayAudit::occluded(RayKind kind, const Ray<double>& ray, std::uint32_t skip
     return;
   }
   for (std::uint32_t i = 0; i < targets_.size(); ++i) {
-    if (i == skip || !may_meet(kind, i, ray)) continue;
+    if (is_ignored(i, skip) || !may_meet(kind, i, ray)) continue;
     PartCounts parts;
     const CastResult<double> cast =
         targets_[i].half_space ? cast_ray(*targets_[i].half_space, ray)
-        : targets_[i].mesh     ? cast_ray(*targets_[i].mesh, ray, ray.t_max, false, 0, parts).cast
-                               : cast_ray(world_.instances().at(i), ray, world_.options());
-    if (cast.found() && verdict(i, ray, claim_of(cast)).holds) return;
+        : targets_[i].mesh ? cast_ray(*targets_[i].mesh, ray, ray.t_max, i == skip, 0, parts).cast
+                           : cast_ray(world_.instances().at(i), ray, world_.options());
+    if (cast.found() && verdict(i, ray, skip, claim_of(cast)).holds) return;
   }
   fail(kind, no_instance, ray, "nothing is proven to be in its way");
 }

@@ -49,7 +49,9 @@ class RayAudit final : public RayObserver {
     std::optional<PosedMesh> mesh = {};
   };
   static std::size_t index(RayKind kind) { return static_cast<std::size_t>(kind); }
-  CertificateVerdict verdict(std::uint32_t instance, const Ray<double>& ray, const Claim& claim);
+  CertificateVerdict verdict(std::uint32_t instance, const Ray<double>& ray, std::uint32_t skip,
+                             const Claim& claim);
+  bool is_ignored(std::uint32_t instance, std::uint32_t skip) const;
   bool may_meet(RayKind kind, std::uint32_t instance, const Ray<double>& ray) const;
   bool all_missed(RayKind kind, const Ray<double>& ray, std::uint32_t skip, std::uint32_t met);
   void fail(RayKind kind, std::uint32_t instance, const Ray<double>& ray, std::string_view what);

@@ -105,7 +105,7 @@ Prover::Prover(const HeldScene& scene) : world_(scene.world()), bodies_(world_.i
 
 CertificateVerdict Prover::verdict(const Body& body, const Ray<double>& ray, const Claim& claim,
                                    Certificate* found) const {
-  if (body.mesh) return verdict_of(*body.mesh, ray, claim, found);
+  if (body.mesh) return verdict_of(*body.mesh, ray, claim, false, found);
   if (!body.shape) return verdict_of(body.half_space, ray, claim);
   Witnesses witnesses(*body.shape);
   const SupportFunction support =

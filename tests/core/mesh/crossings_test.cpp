@@ -235,6 +235,29 @@ TEST(Crossings, an_end_only_cuts_the_list) {
   }
 }
 
+TEST(Crossings, of_repeated_triangles_count_once) {
+  // The first triangle again, its corners turned, and then the rest as well.
+  Surface block = testing::block({1, 1, 1});
+  const Surface plain = block;
+  block.triangles.push_back({plain.triangles[0][1], plain.triangles[0][2], plain.triangles[0][0]});
+  testing::Random random(7);
+  for (int round = 0; round < 2; ++round) {
+    const TriangleMesh mesh = block.mesh();
+    EXPECT_TRUE(mesh.is_closed());
+    EXPECT_TRUE(is_within(mesh, {0.1, 0.2, 0.3}));
+    EXPECT_FALSE(is_within(mesh, {0.1, 0.2, -1.3}));
+    for (int i = 0; i < testing::number_of_cases(500); ++i) {
+      Ray<double> ray{{random.uniform(-1, 1), random.uniform(-1, 1), -3}, {0, 0, 1}};
+      if (i % 2 == 0) ray.origin.x() = ray.origin.y();  // through the diagonal
+      const auto hits = crossings(mesh, ray);
+      ASSERT_EQ(hits.size(), 2u);
+      ASSERT_FALSE(hits[0].is_back);
+      ASSERT_TRUE(hits[1].is_back);
+    }
+    block.triangles.insert(block.triangles.end(), plain.triangles.begin(), plain.triangles.end());
+  }
+}
+
 TEST(Crossings, sheets_without_thickness_are_entered_and_left) {
   // Two triangles back to back, and two boxes that share a face.
   const Surface pillow{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 2, 1}, {0, 1, 2}}};

@@ -154,6 +154,104 @@ TEST(MeshPairs, what_is_within_a_closed_mesh_overlaps_it_and_in_a_hole_does_not)
   EXPECT_EQ(signed_distance(*small, {}, *large, {}).status, SignedStatus::overlapping);
 }
 
+TEST(MeshPairs, overlap_though_edges_lie_on_edges) {
+  const MeshPointer cube = testing::block({1, 1, 1}).shared();
+  const auto status = [&](const PartsBody& other, const Vec3<double>& at) {
+    const Affine<double> pose{Mat3<double>::Identity(), at};
+    const SignedDistance found = signed_distance(*cube, {}, other, pose);
+    EXPECT_EQ(signed_distance(other, pose, *cube, {}).status, found.status);
+    EXPECT_EQ(found.value, 0);
+    return found.status;
+  };
+  for (const Vec3<double>& at :
+       {Vec3<double>(0, 0, 0), Vec3<double>(0.5, 0, 0), Vec3<double>(1, 0, 0),
+        Vec3<double>(1.5, 0, 0), Vec3<double>(0.5, 0.5, 0), Vec3<double>(1, 1, 1)})
+    EXPECT_EQ(status(*cube, at), SignedStatus::overlapping) << at.transpose();
+  for (const Vec3<double>& at :
+       {Vec3<double>(2, 0, 0), Vec3<double>(2, 1, 0.5), Vec3<double>(2, 2, 2)})
+    EXPECT_NE(status(*cube, at), SignedStatus::overlapping) << at.transpose();
+  // Through the middle of a face, where its diagonal is; and in the face.
+  const ContactShape into{Shape(Segment{{Vec3<double>(-1, 0, 0), Vec3<double>(1, 0, 0)}})};
+  EXPECT_EQ(status(into, {1.5, 0, 0}), SignedStatus::overlapping);
+  EXPECT_NE(status(into, {2, 0, 0}), SignedStatus::overlapping);
+  const ContactShape along{Shape(Segment{{Vec3<double>(0, 0, 0), Vec3<double>(0, 0.5, 0)}})};
+  EXPECT_NE(status(along, {1, 0, 0}), SignedStatus::overlapping);
+}
+
+/// Largest distance of the corners (+-x, +-y) from the nearest contact point of B.
+double furthest_corner(const ContactManifold& contact, double x, double y) {
+  double most = 0;
+  for (const double sx : {-x, x})
+    for (const double sy : {-y, y}) {
+      double least = 1e9;
+      for (int i = 0; i < contact.count; ++i)
+        least = std::min(least, (contact.points[static_cast<std::size_t>(i)].point_b.head<2>() -
+                                 Eigen::Vector2d(sx, sy))
+                                    .norm());
+      most = std::max(most, least);
+    }
+  return most;
+}
+
+TEST(MeshPairs, rest_on_as_many_points_as_convex_bodies) {
+  // A box of 3 x 3 on a flat grid of 8 x 8 cells, touching, above and in it.
+  testing::Surface grid;
+  for (int i = 0; i <= 8; ++i)
+    for (int j = 0; j <= 8; ++j) grid.vertices.emplace_back(i - 4, j - 4, 0);
+  testing::add_squares(grid, 9, 9, false);
+  std::erase_if(grid.triangles, [](const Corners& t) {  // those that join both ends of a row
+    return std::ranges::max(t) - std::ranges::min(t) > 10 || t[0] % 9 == 8;
+  });
+  const MeshPointer flat = grid.shared();
+  const ContactShape box{Shape(Box{{1.5, 1.5, 0.5}})};
+  const auto at = [](double x, double y, double z) {
+    Affine<double> pose;
+    pose.translation = {x, y, z};
+    return pose;
+  };
+  for (const double above : {0.0, 0.001, -0.001})
+    for (const double aside : {0.0, 0.1}) {
+      const ContactManifold contact =
+          contact_manifold(*flat, at(-aside, -aside / 2, 0), box, at(0, 0, 0.5 + above));
+      ASSERT_EQ(contact.count, 4) << above;
+      EXPECT_NEAR(contact.normal.z(), 1, 1e-12);
+      EXPECT_LT(furthest_corner(contact, 1.5, 1.5), 1e-9) << above << " " << aside;
+      for (const ContactPoint& point : contact.points) {
+        EXPECT_NEAR(point.distance, above, 1e-12);
+        EXPECT_NEAR((point.point_b - point.point_a - point.distance * contact.normal).norm(), 0,
+                    1e-12);
+        EXPECT_NEAR(point.point_a.z(), 0, 1e-12);
+      }
+      const ContactManifold turned =
+          contact_manifold(box, at(0, 0, 0.5 + above), *flat, at(-aside, -aside / 2, 0));
+      EXPECT_EQ(turned.count, 4);
+      EXPECT_NEAR(turned.normal.z(), -1, 1e-12);
+    }
+  // A cube of triangles on one, askew, and on a large box.
+  const MeshPointer cube = testing::block({1, 1, 1}).shared();
+  for (const double above : {0.0, 0.001}) {
+    const ContactManifold contact =
+        contact_manifold(*cube, at(0.3, 0.2, -2 - above), *cube, at(0, 0, 0));
+    ASSERT_EQ(contact.count, 4);
+    EXPECT_NEAR(contact.normal.z(), 1, 1e-12);
+    Bounds<double> box_of_points;
+    for (const ContactPoint& point : contact.points) box_of_points.extend(point.point_b);
+    EXPECT_NEAR((box_of_points.lower - Vec3<double>(-0.7, -0.8, -1)).norm(), 0, 1e-9);
+    EXPECT_NEAR((box_of_points.upper - Vec3<double>(1, 1, -1)).norm(), 0, 1e-9);
+    const ContactShape ground{Shape(Box{{9, 9, 1}})};
+    const ContactManifold on_ground =
+        contact_manifold(ground, at(0, 0, -2 - above), *cube, at(0, 0, 0));
+    ASSERT_EQ(on_ground.count, 4);
+    EXPECT_LT(furthest_corner(on_ground, 1, 1), 1e-9);
+  }
+  // A ball rests on one point, a tilted box on an edge.
+  const ContactShape ball{Shape(Sphere{0.5})};
+  EXPECT_EQ(contact_manifold(*flat, {}, ball, at(0.3, 0.2, 0.5)).count, 1);
+  Affine<double> tilted = at(0, 0, 0.001 + 0.5 * std::cos(0.3) + 1.5 * std::sin(0.3));
+  tilted.linear = rotation_matrix<double>(0, std::sin(0.15), 0, std::cos(0.15));
+  EXPECT_EQ(contact_manifold(*flat, {}, box, tilted).count, 2);
+}
+
 TEST(MeshPairs, first_touch_when_a_part_is_first_touched) {
   const MeshPointer ring = testing::torus(12, 8).shared();
   const std::vector<ContactShape> of_ring = parts(*ring);

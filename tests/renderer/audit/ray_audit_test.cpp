@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "renderer/film/render.h"
+#include "tests/support/meshes.h"
 #include "tests/support/messages.h"
 #include "tests/support/shifted.h"
 
@@ -100,6 +101,40 @@ TEST(RayAudit, every_ray_of_a_picture_is_proven) {
   EXPECT_EQ(audit.rays(RayKind::indirect), rendering.counts.scattered + rendering.counts.mirrored);
   EXPECT_GT(audit.rays(RayKind::shadow), 500u);
   EXPECT_TRUE(audit.failures().empty()) << audit.failures().front().message;
+}
+
+TEST(RayAudit, rays_that_leave_a_mesh_are_proven_at_the_mesh_itself) {
+  Scene scene;
+  scene.objects.resize(1);
+  scene.objects[0].name = "ring";
+  scene.objects[0].mesh = testing::torus(24, 12).shared();
+  scene.materials.push_back({});
+  scene.camera.position = {-3, 1, 1.5};
+  scene.lights.push_back(DirectionalLight{{1, 0.2, -0.3}, Colour::Constant(1)});
+  scene.lights.push_back(EnvironmentLight{Colour::Constant(1), Colour::Constant(1)});
+  const World world = make_world(scene);
+  RayAudit audit(scene, world);
+  RenderOptions options;
+  options.resolution = {64, 48};
+  options.samples = 2;
+  options.integrator.observer = &audit;
+  render(scene, world, options);
+  EXPECT_GT(audit.rays(RayKind::shadow), 500u);
+  EXPECT_TRUE(audit.failures().empty()) << audit.failures().front().message;
+  // From the inner side of the ring across its hole, and from there up.
+  QueryCounts counts;
+  const Ray<double> to_middle{{0, 0.01, 0.02}, {-1, 0, 0}};
+  const WorldHit start = world.closest_hit(to_middle, counts);
+  ASSERT_TRUE(start.found());
+  const Vec3<double> at = to_middle.origin + start.cast.t() * to_middle.direction;
+  for (const bool is_met : {true, false}) {
+    const Ray<double> ray{at, is_met ? Vec3<double>(1, 0, 0) : Vec3<double>(0.2, 0, 1)};
+    ASSERT_EQ(world.occluded(ray, counts, 0), is_met);
+    audit.occluded(RayKind::shadow, ray, 0, is_met);
+    EXPECT_EQ(audit.failed(RayKind::shadow), is_met ? 0u : 1u);
+    audit.occluded(RayKind::shadow, ray, 0, !is_met);
+    EXPECT_EQ(audit.failed(RayKind::shadow), is_met ? 1u : 2u);
+  }
 }
 
 }  // namespace
