@@ -6,6 +6,7 @@
 
 #include "core/pair/core_pair.h"
 #include "core/pair/flat_part.h"
+#include "core/pair_derivative/impact_contact.h"
 #include "core/pair_derivative/pair_derivative_sharpen.h"
 
 namespace minkray {
@@ -268,7 +269,9 @@ PairDerivative derivative_of(const ContactShape& a, const RigidMotion& motion_a,
   if (found.status == ImpactStatus::inside) return {};
   if (found.status == ImpactStatus::undecided || !std::isfinite(found.distance))
     return unknown(true);
-  return of_hit(a, motion_a, b, motion_b, found);
+  Impact settled = found;
+  settle(a, motion_a, b, motion_b, settled);
+  return of_hit(a, motion_a, b, motion_b, settled);
 }
 
 }  // namespace minkray
