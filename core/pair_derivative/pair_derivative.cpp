@@ -6,6 +6,7 @@
 
 #include "core/pair/core_pair.h"
 #include "core/pair/flat_part.h"
+#include "core/pair_derivative/impact_contact.h"
 #include "core/pair_derivative/pair_derivative_sharpen.h"
 
 namespace minkray {
@@ -43,11 +44,10 @@ Vec3<double> in_core(const ContactShape& shape, const Mat3<double>& linear, cons
   return shape.is_turned() ? Vec3<double>(shape.turn().transpose() * own) : own;
 }
 
-/// True if two bodies with flat parts, moved together along the normal, may touch in more than a
-/// point.
-bool touch_in_many_points(const ContactShape& a, const Mat3<double>& linear_a,
-                          const ContactShape& b, const Mat3<double>& linear_b,
-                          const Vec3<double>& normal, double interval, double length) {
+/// Returns where two bodies with flat parts may touch if moved together along the normal.
+ContactRegion touching_region(const ContactShape& a, const Mat3<double>& linear_a,
+                              const ContactShape& b, const Mat3<double>& linear_b,
+                              const Vec3<double>& normal, double interval, double length) {
   const double tilt = tilt_of(interval, length);
   FlatPart of_a, of_b;
   const auto a_is_flat = [&] {
@@ -59,22 +59,26 @@ bool touch_in_many_points(const ContactShape& a, const Mat3<double>& linear_a,
     return of_b.dimension > 0;
   };
   const bool b_first = is_slow(a.core()) && !is_slow(b.core());
-  if (b_first ? !b_is_flat() || !a_is_flat() : !a_is_flat() || !b_is_flat()) return false;
-  if (of_a.dimension == 2 || of_b.dimension == 2) return true;
+  if (b_first ? !b_is_flat() || !a_is_flat() : !a_is_flat() || !b_is_flat()) return {};
+  if (of_a.dimension == 2 && of_b.dimension == 2) return {2};
   const Mat3<double> turn_a = turn_in_world(a, linear_a), turn_b = turn_in_world(b, linear_b);
+  if (of_a.dimension == 2) return {1, turn_b * of_b.along};
+  if (of_b.dimension == 2) return {1, turn_a * of_a.along};
   // Two edges have one common point, unless they are nearly parallel: the gap then grows by less
   // than the interval of the bounds up to the end of the shorter edge.
   const double sine = (turn_a * of_a.along).cross(turn_b * of_b.along).norm();
   const double shorter = std::min(of_a.length, of_b.length);
-  return sine <= tilt || sine * shorter <= std::sqrt(2 * interval * length);
+  if (sine <= tilt || sine * shorter <= std::sqrt(2 * interval * length))
+    return {1, turn_a * of_a.along};
+  return {};
 }
 
-/// Same for any bodies.
+/// True if any two bodies may touch in more than a point.
 bool have_many_points(const ContactShape& a, const Mat3<double>& linear_a, const ContactShape& b,
                       const Mat3<double>& linear_b, const Vec3<double>& normal, double interval,
                       double length) {
   return has_flat_parts(a.core()) && has_flat_parts(b.core()) &&
-         touch_in_many_points(a, linear_a, b, linear_b, normal, interval, length);
+         touching_region(a, linear_a, b, linear_b, normal, interval, length).dimension > 0;
 }
 
 /// Largest angle between the normal and other directions of least depth; `not_known` if they may be
@@ -129,6 +133,9 @@ bool may_be_rough(const ShapeCore& a, const ShapeCore& b, double interval, doubl
   return between_cores > interval && is_searched(a) && is_searched(b) &&
          !(2 * interval <= precise * precise * between_cores);
 }
+
+/// Error bound of a half-space's normal, due to rounding.
+constexpr double tilt_of_half_space = 64 * std::numeric_limits<double>::epsilon();
 
 TwistDerivative of_point(const Vec3<double>& weight, const Vec3<double>& arm) {
   return {weight, arm.cross(weight)};
@@ -234,13 +241,31 @@ PairDerivative derivative_at_half_space(const Vec3<double>& origin, const Contac
   if (found.is_unknown()) return unknown(true);
   PairDerivative derivative{of_point(-found.normal, found.point_a - origin),
                             of_point(found.normal, found.point_b - pose_b.translation)};
-  // Error bound of the normal, due to rounding.
-  constexpr double tilt = 64 * std::numeric_limits<double>::epsilon();
-  const Vec3<double> down = in_core(b, pose_b.linear, -found.normal);
-  derivative.is_ridge = flat_part(b.core(), down, tilt).dimension > 0;
+  derivative.is_ridge = region_at_half_space(b, pose_b, found).dimension > 0;
   if (error && !derivative.is_ridge)
-    *error = error_at_half_space(b.core(), down, tilt, found, origin, pose_b.translation, drift);
+    *error = error_at_half_space(b.core(), in_core(b, pose_b.linear, -found.normal),
+                                 tilt_of_half_space, found, origin, pose_b.translation, drift);
   return derivative;
+}
+
+ContactRegion contact_region(const ContactShape& a, const Affine<double>& pose_a,
+                             const ContactShape& b, const Affine<double>& pose_b,
+                             const SignedDistance& found) {
+  const double interval = found.upper - found.lower;
+  if (found.is_unknown() || !std::isfinite(interval)) return {};
+  const double between_cores = found.value + a.core().radius + b.core().radius;
+  const ContactRegion region = touching_region(a, pose_a.linear, b, pose_b.linear, found.normal,
+                                               interval, std::abs(between_cores));
+  const bool has_one_normal =
+      between_cores > interval || tilt_of_depth(a, pose_a, b, pose_b, found) != not_known;
+  return has_one_normal ? region : ContactRegion();
+}
+
+ContactRegion region_at_half_space(const ContactShape& b, const Affine<double>& pose_b,
+                                   const SignedDistance& found) {
+  const FlatPart part =
+      flat_part(b.core(), in_core(b, pose_b.linear, -found.normal), tilt_of_half_space);
+  return {part.dimension, turn_in_world(b, pose_b) * part.along};
 }
 
 namespace {
@@ -268,7 +293,9 @@ PairDerivative derivative_of(const ContactShape& a, const RigidMotion& motion_a,
   if (found.status == ImpactStatus::inside) return {};
   if (found.status == ImpactStatus::undecided || !std::isfinite(found.distance))
     return unknown(true);
-  return of_hit(a, motion_a, b, motion_b, found);
+  Impact settled = found;
+  settle(a, motion_a, b, motion_b, settled);
+  return of_hit(a, motion_a, b, motion_b, settled);
 }
 
 }  // namespace minkray

@@ -55,6 +55,24 @@ PairDerivative derivative_at_half_space(const Vec3<double>& origin, const Contac
                                         PairDerivativeError* error = nullptr,
                                         const Drift& drift = {});
 
+/// The region of a pair's nearest points: a point, a segment along `along`, or a polygon
+/// perpendicular to the normal.
+struct ContactRegion {
+  int dimension = 0;
+  Vec3<double> along = Vec3<double>::UnitZ();
+};
+
+/// Returns the region that makes the pair a ridge: all nearest points are in it, and have the same
+/// normal. Dimension 0 if there is another reason, such as a depth in several directions. `found`
+/// is as for derivative_of().
+ContactRegion contact_region(const ContactShape& a, const Affine<double>& pose_a,
+                             const ContactShape& b, const Affine<double>& pose_b,
+                             const SignedDistance& found);
+
+/// Same for a half-space and the shape B.
+ContactRegion region_at_half_space(const ContactShape& b, const Affine<double>& pose_b,
+                                   const SignedDistance& found);
+
 /// Returns the derivative of the time of impact, t_lo of `found`, with respect to a small motion
 /// (twist) of each body at time 0. Zero if the bodies overlap at time 0; NaN without contact.
 PairDerivative derivative_of(const ContactShape& a, const RigidMotion& motion_a,

@@ -180,6 +180,10 @@ Vec3<double> CoresInWorld::support_b(const Vec3<double>& n) const {
   return between.x + turn_b * support_of_core<CoreKind::other>(b, turn_b.transpose() * n).point;
 }
 
+bool sharpen_curved(const CoresInWorld& cores, CoreContact& contact) {
+  return by_newton(cores, contact);
+}
+
 void sharpen(const CoresInWorld& cores, CoreContact& contact) {
   const bool is_known = cores.a.kind != CoreKind::other && cores.b.kind != CoreKind::other;
   const bool is_curved = !is_known || slides(cores.a.kind) || slides(cores.b.kind);

@@ -41,4 +41,8 @@ struct CoreContact {
 /// is found.
 void sharpen(const CoresInWorld& cores, CoreContact& contact);
 
+/// Same where both surfaces are smooth and curved, or corners, even if they touch; uses the normal
+/// only. Returns false for other contacts, and leaves them unchanged.
+bool sharpen_curved(const CoresInWorld& cores, CoreContact& contact);
+
 }  // namespace minkray

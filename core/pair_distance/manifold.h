@@ -15,7 +15,8 @@
 namespace minkray {
 
 struct ContactPoint {
-  /// Points of A and B, up to rounding, with point_b - point_a = distance * normal.
+  /// Points of A and B with point_b - point_a = distance * normal. Up to rounding on flat parts; on
+  /// curved ones they are chords' points, inside by up to tan(tilt) times the region's extent.
   Vec3<double> point_a = Vec3<double>::Zero();
   Vec3<double> point_b = Vec3<double>::Zero();
   double distance = 0;  ///< negative: minus the depth of the overlap at these points

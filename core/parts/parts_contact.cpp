@@ -2,6 +2,7 @@
 #include "core/parts/parts_contact.h"
 
 #include "core/parts/one_part.h"
+#include "core/parts/other_parts.h"
 #include "core/parts/parts_distance.h"
 #include "core/parts/parts_impact.h"
 
@@ -43,8 +44,12 @@ PairDerivative derivative_of(const PartsBody& a, const Affine<double>& pose_a, c
     none.is_ridge = true;
     return none;
   }
-  return finest_derivative_of(OnePart(a, parts.a).shape(), pose_a, OnePart(b, parts.b).shape(),
-                              pose_b);
+  PairDerivative derivative = finest_derivative_of(OnePart(a, parts.a).shape(), pose_a,
+                                                   OnePart(b, parts.b).shape(), pose_b);
+  if (!derivative.is_ridge)
+    derivative.is_ridge =
+        differ_in_derivative(a, pose_a, b, pose_b, parts, found.upper, derivative);
+  return derivative;
 }
 
 PairDerivative derivative_at_half_space(const Vec3<double>& origin, const PartsBody& b,
@@ -69,8 +74,11 @@ PairDerivative derivative_of(const PartsBody& a, const RigidMotion& motion_a, co
     none.is_ridge = found.status != ImpactStatus::miss;
     return none;
   }
-  return derivative_of(OnePart(a, parts.a).shape(), motion_a, OnePart(b, parts.b).shape(), motion_b,
-                       found);
+  PairDerivative derivative = derivative_of(OnePart(a, parts.a).shape(), motion_a,
+                                            OnePart(b, parts.b).shape(), motion_b, found);
+  if (!derivative.is_ridge && found.status == ImpactStatus::hit)
+    derivative.is_ridge = differ_in_derivative(a, motion_a, b, motion_b, parts, found, derivative);
+  return derivative;
 }
 
 }  // namespace minkray

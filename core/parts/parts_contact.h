@@ -15,7 +15,8 @@ namespace minkray {
 ContactManifold contact_manifold(const PartsBody& a, const Affine<double>& pose_a,
                                  const PartsBody& b, const Affine<double>& pose_b);
 
-/// Derivative of the distance, for the two nearest parts. If surfaces cross, the derivative is zero
+/// Derivative of the distance, for the two nearest parts; a ridge if others are as near and have
+/// another derivative. If surfaces cross, the derivative is zero
 /// and marked as a ridge: a pose where the distance has no derivative.
 PairDerivative derivative_of(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
                              const Affine<double>& pose_b);
@@ -25,7 +26,8 @@ PairDerivative derivative_at_half_space(const Vec3<double>& origin, const PartsB
                                         const Affine<double>& pose_b, const SignedDistance& found,
                                         PairDerivativeError* error = nullptr,
                                         const Drift& drift = {});
-/// Derivative of the time of impact.
+/// Derivative of the time of impact; a ridge if other parts, which touch at that time, have another
+/// one.
 PairDerivative derivative_of(const PartsBody& a, const RigidMotion& motion_a, const PartsBody& b,
                              const RigidMotion& motion_b, double t_max);
 

@@ -114,7 +114,7 @@ std::vector<NearPair> near_pairs(const ContactWorld& first, const ContactWorld& 
                                  const NearPairsOptions& options) {
   const std::vector<Indices> candidates = PairWalk(first, second, options).run();
   std::vector<NearPair> pairs(candidates.size());
-  parallel_for(pairs.size(), 64, [&](std::size_t begin, std::size_t end) {
+  const auto part = [&](std::size_t begin, std::size_t end) {
     SignedDistanceOptions how;
     how.at_most = options.at_most;
     how.tolerance = options.tolerance;
@@ -123,7 +123,12 @@ std::vector<NearPair> near_pairs(const ContactWorld& first, const ContactWorld& 
       const ContactBody &of_a = first.bodies()[a], &of_b = second.bodies()[b];
       pairs[i] = {a, b, signed_distance(of_a.parts(), of_a.pose, of_b.parts(), of_b.pose, how)};
     }
-  });
+  };
+  constexpr std::size_t part_size = 64;
+  if (options.run)
+    options.run(pairs.size(), part_size, part);
+  else
+    parallel_for(pairs.size(), part_size, part);
   std::erase_if(pairs, [&](const NearPair& pair) { return pair.distance.lower > options.at_most; });
   return pairs;
 }

@@ -52,11 +52,17 @@ struct NearPair {
   SignedDistance distance;
 };
 
+/// Calls body(begin, end) for parts of [0, count), as parallel_for() does.
+using RunParts =
+    std::function<void(std::size_t count, std::size_t part_size,
+                       const std::function<void(std::size_t begin, std::size_t end)>& body)>;
+
 struct NearPairsOptions {
   double at_most = 0;  ///< omits pairs further apart; 0: returns only pairs that overlap or touch
   /// Optional filter, in addition to masks: returns false for pairs to skip.
   std::function<bool(std::size_t a, std::size_t b)> wanted;
   double tolerance = SignedDistanceOptions{}.tolerance;
+  RunParts run = {};  ///< computes the distances, if set; may throw to end the search
 };
 
 /// Returns all pairs of bodies of a world, except pairs whose signed distance is proven to be above

@@ -495,8 +495,9 @@ typedef struct minkray_distance {
   double value; /* between lower and upper; minus the depth for an overlap */
   double lower;
   double upper;
-  double point_a[3]; /* point_b - point_a = value * normal, up to rounding; if the shapes touch or
-                      * overlap, up to 3e-6 of their sizes */
+  double point_a[3]; /* point_b - point_a = value * normal, up to a sideways error of
+                      * sqrt(2 value (upper - lower)); if the shapes touch or overlap, up to 3e-6 of
+                      * their sizes */
   double point_b[3];
   double normal[3]; /* unit vector from a to b */
   int32_t status;   /* a minkray_distance_status */

@@ -110,7 +110,9 @@ MINKRAY_API int minkray_times_of_impact(const minkray_bodies* a, const minkray_b
                                         const minkray_options* how);
 
 /* Up to four pairs of contact points: corners of the region where the two shapes face each other.
- * In each pair, point_b - point_a = gap normal. The first pair is that of the signed distance. */
+ * In each pair, point_b - point_a = gap normal. The first pair is that of the signed distance. The
+ * others are on the shapes if these are flat there; on curved shapes they are inside, by up to 0.02
+ * times the extent of the points. */
 typedef struct minkray_manifold {
   double normal[3]; /* unit vector from a to b */
   double points_a[4][3];
@@ -167,14 +169,16 @@ MINKRAY_API int minkray_scene_allow(minkray_scene scene, uint32_t object_a, uint
 MINKRAY_API int minkray_scene_allow_from_srdf(minkray_scene scene, uint32_t group,
                                               const char* file);
 
-/* Two objects and their distance. `jac_a` and `jac_b` are the derivatives with respect to a twist
- * of each about the origin of its frame, zero unless requested; see minkray_distance_arrays. */
+/* Two objects and their distance. `is_ridge` is that of this pair, even if another object is as
+ * near or met at the same time. `jac_a` and `jac_b` are the derivatives with respect to a twist of
+ * each about the origin of its frame, zero unless requested, NaN if there is no object; see
+ * minkray_distance_arrays. */
 typedef struct minkray_scene_pair {
   minkray_distance distance;
   double jac_a[6];
   double jac_b[6];
   uint32_t object_a; /* the lesser number; MINKRAY_NO_OBJECT for a given shape */
-  uint32_t object_b; /* MINKRAY_NO_OBJECT if there is none: all numbers are infinite */
+  uint32_t object_b; /* MINKRAY_NO_OBJECT if there is none: distances are infinite */
   int32_t is_ridge;
   int32_t reserved;
 } minkray_scene_pair;
@@ -205,7 +209,7 @@ typedef int (*minkray_take_pairs)(void* user, const minkray_scene_pair* pairs, s
  * or that are allowed, pairs of half-spaces, and links of a robot that do not move relative to each
  * other or that a joint connects. If `pairs` is not NULL, computes exactly these `count` pairs (two
  * numbers each), in their order, even if masks exclude them or they are allowed. Options may be
- * NULL: `within` is then 0, without derivatives. `threads` is the only used member of `how`. */
+ * NULL: `within` is then 0, without derivatives. */
 MINKRAY_API int minkray_scene_distances(minkray_scene scene, const uint32_t* pairs, size_t count,
                                         const minkray_near_options* options,
                                         minkray_take_pairs take, void* user,

@@ -229,6 +229,11 @@ void warn_of_limits(const Model& model, const ImportOptions& options) {
       std::cerr << "warning: " << one.what << ": " << one.why << "\n";
 }
 
+void warn_of_no_shapes(const std::string& robot) {
+  std::cerr << "warning: " << printable(robot)
+            << ": the robot has no shapes of the chosen --geometry; nothing of it is checked\n";
+}
+
 void warn_of_counts(const RayCounts& counts) {
   warn_of_exhausted(counts.work.exhausted, counts.work.casts);
   if (counts.from_inside > 0)

@@ -86,6 +86,9 @@ void write_images(const std::vector<std::string>& outputs, const Image& picture,
 /// Warns on stderr if joints were set beyond their limits.
 void warn_of_limits(const Model& model, const ImportOptions& options);
 
+/// Warns on stderr that a robot's file has no shapes to check.
+void warn_of_no_shapes(const std::string& robot);
+
 /// Warns on stderr if any cast was exhausted, or a camera ray began in a shape.
 void warn_of_counts(const RayCounts& counts);
 

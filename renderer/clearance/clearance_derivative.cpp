@@ -4,6 +4,7 @@
 #include "core/parts/parts_distance.h"
 #include "core/parts/parts_reach.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -40,6 +41,16 @@ class Moment {
     about_link(pair.a, derivative.a, error ? &error->a : nullptr);
     about_link(pair.b, derivative.b, error ? &error->b : nullptr);
     return derivative;
+  }
+
+  /// Where all nearest points of a pair on a ridge are; see contact_region().
+  ContactRegion region(const BodyPair& pair, const SignedDistance& found) const {
+    const Affine<double> pose_a = pose(pair.a), pose_b = pose(pair.b);
+    const ClearanceBody &a = bodies_[pair.a], &b = bodies_[pair.b];
+    if (a.mesh || b.mesh) return {};
+    if (a.plane) return region_at_half_space(b.shape, pose_b, found);
+    if (b.plane) return region_at_half_space(a.shape, pose_a, turned_round(found));
+    return contact_region(a.shape, pose_a, b.shape, pose_b, found);
   }
 
   /// No distance of the pair is less.
@@ -98,6 +109,61 @@ class Moment {
   const std::vector<ClearanceBody>& bodies_;
 };
 
+/// Derivatives by joints, at all nearest points and of all pairs that are as near.
+class JointsAt {
+ public:
+  JointsAt(const Model& posed, const std::vector<ClearanceBody>& bodies, const JointWidths& joints)
+      : moment(posed, bodies), posed_(posed), bodies_(bodies), joints_(joints) {}
+
+  using Links = std::array<LinkDerivative, 2>;
+  Links links(const BodyPair& pair, const PairDerivative& by,
+              const PairDerivativeError& error = {}) const {
+    return {LinkDerivative{bodies_[pair.a].link_index, by.a, error.a},
+            LinkDerivative{bodies_[pair.b].link_index, by.b, error.b}};
+  }
+  std::vector<double> by_joints(const Links& links) const {
+    return derivative_by_joints(posed_, joints_, links);
+  }
+
+  /// True if no joint's derivative changes from one nearest point to another.
+  bool are_same_within(const ContactRegion& region, const BodyPair& pair,
+                       const Vec3<double>& normal) const {
+    const auto are_same_along = [&](const Vec3<double>& way) {
+      const Vec3<double> turn = way.cross(normal);
+      const PairDerivative change{{Vec3<double>::Zero(), -turn}, {Vec3<double>::Zero(), turn}};
+      return std::ranges::all_of(by_joints(links(pair, change)),
+                                 [](double by) { return std::abs(by) <= same; });
+    };
+    if (region.dimension == 1) return are_same_along(region.along);
+    const Vec3<double> u = normal.unitOrthogonal();
+    return region.dimension == 2 && are_same_along(u) && are_same_along(normal.cross(u));
+  }
+
+  bool is_ridge(const BodyPair& pair, const SignedDistance& found, const PairDerivative& by) const {
+    return by.is_ridge && !are_same_within(moment.region(pair, found), pair, found.normal);
+  }
+
+  /// True if another pair, which is as near, has these derivatives, too.
+  bool are_of(const BodyPair& other, const std::vector<double>& expected) const {
+    const SignedDistance found = moment.distance(other, for_derivatives());
+    const PairDerivative by = moment.derivative(other, found, nullptr, {});
+    if (is_ridge(other, found, by)) return false;
+    const std::vector<double> values = by_joints(links(other, by));
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (!(std::abs(values[i] - expected[i]) <= same * (1 + std::abs(expected[i])))) return false;
+    return true;
+  }
+
+  const Moment moment;
+
+ private:
+  static constexpr double same = 1e-9;
+
+  const Model& posed_;
+  const std::vector<ClearanceBody>& bodies_;
+  const JointWidths& joints_;
+};
+
 }  // namespace
 
 ClearanceDerivative derivative_of(const Closest& closest, const JointPath& path,
@@ -110,7 +176,8 @@ ClearanceDerivative derivative_of(const Closest& closest, const JointPath& path,
     result.by_joints = result.errors = derivative_by_joints(posed, joints, {});
     return result;
   }
-  const Moment moment(posed, bodies);
+  const JointsAt at(posed, bodies, joints);
+  const Moment& moment = at.moment;
   SignedDistanceOptions how;
   how = for_derivatives(how);
   const BodyPair nearest{closest.a, closest.b};
@@ -121,18 +188,17 @@ ClearanceDerivative derivative_of(const Closest& closest, const JointPath& path,
   PairDerivativeError error;
   const PairDerivative derivative =
       moment.derivative(nearest, found, with_errors ? &error : nullptr, drift);
-  const std::array<LinkDerivative, 2> links = {
-      LinkDerivative{bodies[closest.a].link_index, derivative.a, error.a},
-      LinkDerivative{bodies[closest.b].link_index, derivative.b, error.b}};
-  result.by_joints = derivative_by_joints(posed, joints, links);
-  result.is_ridge = derivative.is_ridge;
+  const JointsAt::Links links = at.links(nearest, derivative, error);
+  result.by_joints = at.by_joints(links);
+  result.is_ridge = at.is_ridge(nearest, found, derivative);
   how = {};
   how.at_most = found.upper;
   for (std::size_t i = 0; i < pairs.size() && !result.is_ridge; ++i) {
     const BodyPair& pair = pairs[i];
     if (pair.a == nearest.a && pair.b == nearest.b) continue;
     result.is_ridge = moment.lower_by_balls(pair) <= found.upper &&
-                      moment.distance(pair, how).lower <= found.upper;
+                      moment.distance(pair, how).lower <= found.upper &&
+                      !at.are_of(pair, result.by_joints);
   }
   if (!with_errors) return result;
   if (result.is_ridge)

@@ -11,11 +11,12 @@ namespace minkray {
 
 struct ClearanceDerivative {
   std::vector<double> by_joints;  ///< zero if there is no pair, NaN if nothing is known of it
-  /// Bounds of their errors, if requested. Infinite on ridges and for meshes; else for the pose at
-  /// this moment, the joints' values rounded.
+  /// Bounds of their errors, if requested. Infinite on ridges, for meshes, and if there are several
+  /// nearest points; else for the pose at this moment, the joints' values rounded.
   std::vector<double> errors;
-  /// The bounds do not exclude that there are other derivatives: of this pair, or of another one
-  /// that is as near at this moment. Other moments are not considered.
+  /// The bounds do not exclude that there are other derivatives by the joints: at other nearest
+  /// points of this pair, or of another one that is as near at this moment. Other moments are not
+  /// considered.
   bool is_ridge = false;
 };
 

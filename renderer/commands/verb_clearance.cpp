@@ -8,6 +8,7 @@
 #include "core/files/text.h"
 #include "core/parallel/parallel.h"
 #include "renderer/arguments/allowed_links.h"
+#include "renderer/arguments/image_arguments.h"
 #include "renderer/arguments/import_arguments.h"
 #include "renderer/base/csv.h"
 #include "renderer/clearance/clearance.h"
@@ -104,6 +105,7 @@ void clearance(ClearanceVerbOptions& options, ExitCode& exit_code) {
   const AllowedPairs allowed = options.allowed.read(*model, mistakes);
   throw_if_any(mistakes);
   std::vector<ClearanceBody> bodies = bodies_of(*model, options.import.geometry);
+  if (bodies.empty()) warn_of_no_shapes(options.robot);
   for (const std::string& file : options.obstacles) {
     const Imported obstacle = import_scene(file);
     options.files->read(obstacle.files);
@@ -121,7 +123,10 @@ void clearance(ClearanceVerbOptions& options, ExitCode& exit_code) {
     write_file(options.sweep, scene_text(scene));
   }
   std::cout << json_of(found, bodies).dump() << '\n';
-  if (options.at_least && !(found.closest.lower >= *at_least)) {
+  if (options.at_least && found.pairs == 0) {
+    exit_code = ExitCode::comparison_failed;
+    std::cerr << "no pair of bodies was checked: --at-least is not proven\n";
+  } else if (options.at_least && !(found.closest.lower >= *at_least)) {
     exit_code = ExitCode::comparison_failed;
     std::cerr << "the clearance is not proven to be at least " << *options.at_least << "\n";
   }

@@ -136,6 +136,7 @@ DistanceTable distance_table(const DistanceVerbOptions& options,
         bodies_in(options.files[i], kinds[i], of_others, *options.command_files, other_model));
   AllowedPairs allowed;
   if (model) {
+    if (first.bodies.empty()) warn_of_no_shapes(options.files[0]);
     warn_of_limits(*model, options.import);
     Mistakes mistakes(options.files[0]);
     allowed = options.allowed.read(*model, mistakes);

@@ -207,7 +207,7 @@ class Derivatives {
     if (body && body->mesh) {
       const Vec3<double> point =
           body->pose.linear.transpose() * (met.point - body->pose.translation);
-      if (minkray::bends_at(*body->mesh, point, near_point + rounding * body->mesh->reach()))
+      if (bends_or_ends_at(*body->mesh, point, near_point + rounding * body->mesh->reach()))
         return true;
     } else if (body) {
       const ShapeCore& core = body->shape.core();

@@ -22,6 +22,7 @@ namespace minkray {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr std::uint32_t all_categories = ~std::uint32_t{0};
 
 struct NearQuery {
@@ -107,8 +108,12 @@ minkray_scene_pair plain_pair(const ScenePair& pair, const NearQuery& query, dou
 }
 
 /// Result if there is no object.
-minkray_scene_pair no_pair(double within) {
+minkray_scene_pair no_pair(double within, bool derive) {
   minkray_scene_pair none = {};
+  if (derive) {
+    std::ranges::fill(none.jac_a, not_a_number);
+    std::ranges::fill(none.jac_b, not_a_number);
+  }
   none.distance.value = none.distance.upper = infinite;
   none.distance.lower = within;
   none.distance.status = MINKRAY_SEPARATED;
@@ -126,12 +131,12 @@ void put_result(std::size_t i, const ScenePair* found, const ContactBody& to,
     });
     return;
   }
-  results[i] = no_pair(query.within);
-  if (errors) std::fill_n(errors, 4, infinite);
+  results[i] = no_pair(query.within, query.derive);
+  if (errors) std::fill_n(errors, 4, not_a_number);
 }
 
 std::vector<ScenePair> given_pairs(const HeldScene& held, const std::uint32_t* pairs,
-                                   std::size_t count, const NearQuery& query) {
+                                   std::size_t count, const NearQuery& query, const RunParts& run) {
   const SceneBodies& bodies = held.bodies();
   std::vector<ScenePair> found(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -144,8 +149,8 @@ std::vector<ScenePair> given_pairs(const HeldScene& held, const std::uint32_t* p
   }
   SignedDistanceOptions how = query.distances;
   how.at_most = query.within;
-  constexpr std::size_t grain = 64;
-  parallel_for(count, grain, [&](std::size_t begin, std::size_t end) {
+  constexpr std::size_t part_size = 64;
+  run(count, part_size, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       found[i].distance = bodies.distance(found[i].a, found[i].b, how);
   });
@@ -167,6 +172,34 @@ std::map<std::string, std::vector<std::uint32_t>> objects_of_links(const HeldSce
   }
   return objects;
 }
+
+/// Runs parts of work that is the share from `first` to `last` of a call.
+class ShareOfCall {
+ public:
+  ShareOfCall(const minkray_options* how, double first, double last)
+      : how_(how), first_(first), last_(last) {
+    if (!how) return;
+    shared_ = {sizeof shared_, how->threads, 0, nullptr, this};
+    if (how->progress) shared_.progress = &ShareOfCall::tell;
+  }
+  ShareOfCall(const ShareOfCall&) = delete;
+  ShareOfCall& operator=(const ShareOfCall&) = delete;
+
+  void run(std::size_t count, std::size_t part_size,
+           const std::function<void(std::size_t begin, std::size_t end)>& body) const {
+    work_on_parts(count, part_size, how_ ? &shared_ : nullptr, body);
+  }
+
+ private:
+  static int tell(void* user, double done) {
+    const auto& self = *static_cast<const ShareOfCall*>(user);
+    return self.how_->progress(self.how_->user, self.first_ + done * (self.last_ - self.first_));
+  }
+
+  const minkray_options* how_;
+  double first_, last_;
+  minkray_options shared_ = {};
+};
 
 /// Calls body(i) for all, few at a time.
 void for_all(const HeldScene& held, std::size_t count, const minkray_options* how,
@@ -234,19 +267,27 @@ int minkray_scene_distances(minkray_scene scene, const uint32_t* pairs, size_t c
     const NearQuery query = query_of(options, pairs ? infinite : 0);
     std::vector<minkray_scene_pair> plain;
     std::vector<double> errors;
-    with_threads(threads_of(how), [&] {
+    const int threads = threads_of(how);
+    const bool derive = query.derive || query.jac_errors;
+    const ShareOfCall first(how, 0, derive ? 0.5 : 1), rest(how, 0.5, 1);
+    with_threads(threads, [&] {
       const SceneBodies& bodies = held->bodies();
+      const RunParts run = [&](const auto&... of_parts) { first.run(of_parts...); };
       const std::vector<ScenePair> found =
-          pairs ? given_pairs(*held, pairs, count, query)
-                : bodies.near(query.within, query.distances.tolerance);
+          pairs ? given_pairs(*held, pairs, count, query, run)
+                : bodies.near(query.within, query.distances.tolerance, run);
       plain.resize(found.size());
       if (query.jac_errors) errors.resize(4 * found.size());
-      constexpr std::size_t grain = 256;
-      parallel_for(found.size(), grain, [&](std::size_t begin, std::size_t end) {
+      constexpr std::size_t part_size = 256;
+      const auto part = [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
           plain[i] = plain_pair(found[i], query, query.jac_errors ? &errors[4 * i] : nullptr,
                                 [&](auto* error) { return bodies.derivative(found[i], error); });
-      });
+      };
+      if (derive)
+        rest.run(found.size(), part_size, part);
+      else
+        parallel_for(found.size(), part_size, part);
     });
     throw_if_lied(held->customs());
     if (query.jac_errors) *query.jac_errors = errors.data();

@@ -81,6 +81,8 @@ struct RobotAmong {
       bodies.push_back(std::move(body));
       objects.push_back(object);
     }
+    if (bodies.empty())
+      wrong_use("group: must have shapes (got a robot without any of the chosen geometry)");
     add_obstacles(held, robot, bodies, objects);
     pairs = pairs_of(bodies, *robot.model, {}, self);
     std::erase_if(pairs, [&](const BodyPair& pair) {

@@ -81,10 +81,12 @@ const SceneBodies::HalfSpace* SceneBodies::half_space_of(std::uint32_t object) c
   return found == half_spaces_.end() ? nullptr : &*found;
 }
 
-std::vector<ScenePair> SceneBodies::near(double within, double tolerance) const {
+std::vector<ScenePair> SceneBodies::near(double within, double tolerance,
+                                         const RunParts& run) const {
   NearPairsOptions options;
   options.at_most = within;
   options.tolerance = tolerance;
+  options.run = run;
   options.wanted = [&](std::size_t a, std::size_t b) {
     return are_looked_at(objects_[a], objects_[b]);
   };

@@ -28,7 +28,8 @@ class SceneBodies {
   explicit SceneBodies(const HeldScene& scene);
 
   /// All tested pairs whose distance is not proven to be above `within`, by their numbers: a < b.
-  std::vector<ScenePair> near(double within, double tolerance) const;
+  /// `run` computes the distances.
+  std::vector<ScenePair> near(double within, double tolerance, const RunParts& run) const;
 
   /// Independent of the rules. Throws CallError if both are half-spaces.
   SignedDistance distance(std::uint32_t a, std::uint32_t b, const SignedDistanceOptions& how) const;

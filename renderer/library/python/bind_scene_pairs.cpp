@@ -32,7 +32,7 @@ Row* first_of(Bytes& bytes) {
 
 /// The pairs, and the bounds of the derivatives' errors, four for each, if `jac_error`.
 py::tuple distances(const Scene& scene, const py::object& pairs, double within, double tolerance,
-                    bool jac, bool jac_error, int threads) {
+                    bool jac, bool jac_error, int threads, const py::object& progress) {
   using Numbers = py::array_t<std::uint32_t, py::array::c_style>;
   Numbers given;
   if (!pairs.is_none()) given = pairs.cast<Numbers>();
@@ -48,7 +48,7 @@ py::tuple distances(const Scene& scene, const py::object& pairs, double within, 
   } taken;
   minkray_near_options options = options_of(within, tolerance, jac, 0);
   if (jac_error) options.jac_errors = &taken.their_errors;
-  Interruptible(threads).run([&](const minkray_options* how) {
+  Interruptible(threads, progress).run([&](const minkray_options* how) {
     const auto take = [](void* user, const minkray_scene_pair* all, std::size_t size) {
       auto& to = *static_cast<decltype(taken)*>(user);
       to.found.assign(all, all + size);
@@ -66,26 +66,28 @@ py::tuple distances(const Scene& scene, const py::object& pairs, double within, 
 }
 
 Bytes nearest(const Scene& scene, const Doubles& points, std::size_t k, double within, bool jac,
-              const py::object& errors, std::uint32_t mask, int threads) {
+              const py::object& errors, std::uint32_t mask, int threads,
+              const py::object& progress) {
   const auto count = static_cast<std::size_t>(points.shape(0));
   minkray_near_options options = options_of(within, 0, jac, mask);
   options.jac_error = room_for_errors(errors);
   Bytes bytes = rows<minkray_scene_pair>(count * k);
   auto* const to = first_of<minkray_scene_pair>(bytes);
   const auto* const from = reinterpret_cast<const double(*)[3]>(points.data());
-  Interruptible(threads).run([&](const minkray_options* how) {
+  Interruptible(threads, progress).run([&](const minkray_options* how) {
     return minkray_scene_nearest(scene.handle(), from, count, k, &options, to, how);
   });
   return bytes;
 }
 
 Bytes distance_to(const Scene& scene, const Side& shapes, std::size_t count, double within,
-                  bool jac, const py::object& errors, std::uint32_t mask, int threads) {
+                  bool jac, const py::object& errors, std::uint32_t mask, int threads,
+                  const py::object& progress) {
   minkray_near_options options = options_of(within, 0, jac, mask);
   options.jac_error = room_for_errors(errors);
   Bytes bytes = rows<minkray_scene_pair>(count);
   auto* const to = first_of<minkray_scene_pair>(bytes);
-  Interruptible(threads).run([&](const minkray_options* how) {
+  Interruptible(threads, progress).run([&](const minkray_options* how) {
     return minkray_scene_distance_to(scene.handle(), shapes.plain(), count, &options, to, how);
   });
   return bytes;
@@ -93,14 +95,14 @@ Bytes distance_to(const Scene& scene, const Side& shapes, std::size_t count, dou
 
 Bytes time_of_impact(const Scene& scene, const Side& shapes, std::size_t count,
                      const Doubles& t_max, bool jac, const py::object& errors, std::uint32_t mask,
-                     int threads) {
+                     int threads, const py::object& progress) {
   minkray_near_options options = options_of(0, 0, jac, mask);
   options.jac_error = room_for_errors(errors);
   Bytes bytes = rows<minkray_scene_impact>(count);
   auto* const to = first_of<minkray_scene_impact>(bytes);
   const double* const ends = t_max.data();
   const auto end_count = static_cast<std::size_t>(t_max.size());
-  Interruptible(threads).run([&](const minkray_options* how) {
+  Interruptible(threads, progress).run([&](const minkray_options* how) {
     return minkray_scene_time_of_impact(scene.handle(), shapes.plain(), count, ends, end_count,
                                         &options, to, how);
   });

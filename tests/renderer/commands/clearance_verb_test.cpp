@@ -119,6 +119,18 @@ TEST_F(ClearanceVerb, fails_where_less_is_proven_than_is_asked_for) {
   expect_exit(0, clearance("--path half.csv --at-least 0.21"));
 }
 
+TEST_F(ClearanceVerb, of_nothing_is_said_and_proves_nothing) {
+  const std::string bare = R"(<robot name="bare"><link name="base"/><link name="tip"/>
+    <joint name="turn" type="continuous"><parent link="base"/><child link="tip"/></joint></robot>)";
+  folder.write("bare.urdf", bare);
+  expect_exit(0, run_minkray(folder, "clearance bare.urdf --obstacle ball.json"),
+              {"warning: bare.urdf: the robot has no shapes of the chosen --geometry"});
+  expect_exit(1, run_minkray(folder, "clearance bare.urdf --obstacle ball.json --at-least 0.1"),
+              {"no pair of bodies was checked: --at-least is not proven"});
+  expect_exit(0, run_minkray(folder, "distance bare.urdf ball.json"),
+              {"warning: bare.urdf: the robot has no shapes"});
+}
+
 TEST_F(ClearanceVerb, every_step_has_a_row_and_the_sweep_is_a_scene_that_renders) {
   const ProgramOutcome outcome = clearance("--path swing.csv --steps steps.csv --sweep sweep.json");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -150,6 +150,69 @@ class Derivatives(unittest.TestCase):
         summed = mk.sum(mk.box([0.5, 0.5, 0.5]), mk.superellipsoid([0.5, 0.5, 0.5], 4))
         self.assertTrue(ridge(summed, None, summed, [[0.1, 0.1, 5, 1, 0, 0, 0]]))
 
+    def test_of_meshes_say_where_parts_are_equally_near(self):
+        def bent(height):  # a valley (1), a flat (0) or a roof (-1) of four triangles along y
+            return mk.mesh([[0, -1, 0], [0, 1, 0], [-2, -1, height], [-2, 1, height], [2, -1, height], [2, 1, height]],
+                           [[0, 1, 3], [0, 3, 2], [0, 5, 1], [0, 4, 5]])
+        scene_pose = np.array([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 1.0]])
+        small_box = mk.mesh([[x, y, z] for x in (-.1, .1) for y in (-.1, .1) for z in (-.1, .1)],
+                            [[0, 1, 3], [0, 3, 2], [4, 6, 7], [4, 7, 5], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6],
+                             [0, 6, 4], [1, 5, 7], [1, 7, 3]])
+        for body in mk.sphere(0.1), mk.ellipsoid([0.1, 0.2, 0.1]), mk.superellipsoid([0.1, 0.1, 0.1], 2.5):
+            for height, expected in ((1.0, True), (0, False), (-1.0, False)):
+                for x in (0, 1e-6) if height > 0 else (0,):
+                    at, down = [x, 0.3, 1, 1, 0, 0, 0], [0, 0, -1, 0, 0, 0]
+                    mesh, ridge = bent(2 * height), expected and x == 0
+                    scene = mk.Scene()
+                    scene.add(mesh)
+                    found = [mk.signed_distances(mesh, None, body, at, jac=True).is_ridge[0],
+                             mk.times_of_impact(mesh, None, None, body, at, down, jac=True).is_ridge[0],
+                             scene.distance_to(body, at, jac=True).is_ridge[0],
+                             scene.time_of_impact(body, at, down, jac=True).is_ridge[0]]
+                    scene.add(body, scene_pose + [[0, 0, 0, x], [0, 0, 0, 0.3], [0, 0, 0, 0]])
+                    found.append(scene.distances(within=2, jac=True).is_ridge[0])
+                    self.assertEqual([bool(one) for one in found], [ridge] * 5, (body, height, x))
+        turned = [0, 0.3, 1, *unit(np.array([1, 0.3, 0.2, 0.1]))]
+        self.assertFalse(mk.signed_distances(bent(0), None, small_box, turned, jac=True).is_ridge[0])
+        self.assertTrue(mk.signed_distances(bent(0), None, small_box, [0, 0.3, 1, 1, 0, 0, 0], jac=True).is_ridge[0])
+
+    def test_of_impacts_are_as_accurate_as_those_of_distances(self):
+        # A point moves into a superellipsoid: the gauge's gradient is the normal.
+        rng, errors = np.random.default_rng(0), []
+        for _ in range(300):
+            p, r = rng.choice([2.5, 3, 4, 6]), rng.uniform(0.4, 1.2, 3)
+            origin = 4 * unit(rng.normal(size=3))
+            v = -origin / 4 + rng.normal(size=3) * 0.03
+            d = mk.times_of_impact(mk.superellipsoid(r, p), None, None, mk.point([0, 0, 0]), [*origin, 1, 0, 0, 0],
+                                   [*v, 0, 0, 0], 9, jac=True)
+            if d.status[0] != mk.IMPACT:
+                continue
+            t = d.t_hi[0]
+            for _ in range(5):
+                x = origin + t * v
+                n = p / r * np.abs(x / r) ** (p - 1) * np.sign(x)
+                t -= ((np.abs(x / r) ** p).sum() - 1) / (n @ v)
+            errors.append(np.abs(-n / (n @ v) - d.jac_b[0, :3]).max() / max(1, np.linalg.norm(n / (n @ v))))
+        self.assertGreater(len(errors), 200)
+        self.assertLess(max(errors), 1e-6)
+
+    def test_of_rays_at_the_border_of_a_mesh_are_not_unique(self):
+        def flags(mesh, points):
+            scene = mk.Scene()
+            scene.add(mesh)
+            hits = scene.cast_rays([[x, y, 5, 0, 0, -1.0] for x, y in points], jac=True, jac_error=True)
+            self.assertTrue((hits.status == mk.HIT).all())
+            self.assertTrue((np.isinf(hits.jac_error_ray).all(1) == hits.is_ridge).all())
+            return hits.is_ridge.tolist()
+        square = mk.mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]], [[0, 1, 2], [1, 3, 2]])
+        self.assertEqual(flags(square, [(0, 0.5), (0, 0), (1, 1), (0.5, 0.5), (0.2, 0.2), (1e-6, 0.5)]),
+                         [True, True, True, False, False, False])
+        # The same vertices twice: the triangles still meet.
+        parted = mk.mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2], [3, 4, 5]])
+        self.assertEqual(flags(parted, [(0.5, 0.5), (1, 0.5)]), [False, True])
+        fan = mk.mesh([[0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]], [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]])
+        self.assertEqual(flags(fan, [(0, 0), (0.25, 0), (1, 0)]), [False, False, True])
+
     def test_of_rays_say_where_they_are_not_unique(self):
         scene = mk.Scene()
         scene.add(mk.box([1, 1, 1]))

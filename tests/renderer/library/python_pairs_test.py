@@ -65,6 +65,12 @@ class Batches(unittest.TestCase):
         part = mk.signed_distances(ball, None, box, poses, out={"value": mine})
         self.assertIs(part.value, mine)
         self.assertEqual(list(vars(part)), ["value"])
+        lower = mk.signed_distances(ball, None, box, poses, out={"lower": mine})
+        self.assertEqual(repr(lower), "<minkray.Distances with lower>")
+        self.assertEqual(repr(mk.manifolds(ball, None, box, poses, out={"lower": mine})), "<minkray.Manifolds with lower>")
+        for out, names in ((mk.signed_distances(ball, None, box, poses), "jac_a, jac_b, is_ridge"), (again, "jac_error_a, jac_error_b")):
+            with self.assertRaisesRegex(mk.Error, f"^signed_distances: out: must have {names}, "):
+                mk.signed_distances(ball, None, box, poses, jac=True, jac_error=out is again, out=out)
 
     def test_are_told_of_and_stopped(self):
         poses = random_poses(200000)

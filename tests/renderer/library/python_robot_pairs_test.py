@@ -142,6 +142,39 @@ class Clearances(unittest.TestCase):
         self.assertFalse(scene.clearance(robot, [0, 0.2, 0, 0], jac=True).is_ridge[0])
 
 
+    def test_by_joints_are_unique_if_all_nearest_points_agree(self):
+        # Two plates on hinges about z: an edge over a face, along the hinges or across them.
+        robot_text = """<robot name="r"><link name="base"/><link name="plate"><collision><origin xyz="1 0 0"/><geometry>
+          <box size="1 0.2 0.6"/></geometry></collision></link><joint name="hinge" type="continuous"><parent link="base"/>
+          <child link="plate"/><axis xyz="0 0 1"/></joint></robot>"""
+        scene, robot = loaded(robot_text, "plate.urdf", None, [(mk.box([1, 0.5, 1]), at(1.5, 1.5, 0))])
+        for q, expected in ((0.1, False), (0, True), (0.4, False)):
+            c = scene.clearance(robot, [q], 1e-12, jac=True)
+            self.assertEqual(bool(c.is_ridge[0]), expected, q)
+            slope = [(scene.clearance(robot, [q + s], 1e-12).upper[0] - c.upper[0]) / s for s in (-1e-6, 1e-6)]
+            if expected:
+                self.assertGreater(abs(slope[0] - slope[1]), 0.1)
+            else:
+                np.testing.assert_allclose(slope, c.jac[0, 0], atol=1e-5)
+        across = robot_text.replace('axis xyz="0 0 1"', 'axis xyz="1 0 0"')
+        scene, robot = loaded(across, "plate.urdf", None, [(mk.box([1, 0.5, 1]), at(1.5, 1.5, 0))])
+        self.assertTrue(scene.clearance(robot, [0], jac=True).is_ridge[0])  # faces, which the hinge tilts
+        slide = robot_text.replace("continuous", "prismatic").replace(
+            '<axis xyz="0 0 1"/>', '<axis xyz="0 1 0"/><limit lower="-9" upper="9" effort="1" velocity="1"/>')
+        box, ball = (mk.box([1, 0.5, 1]), at(1.5, 1.5, 0)), (mk.sphere(0.1), at(1, 1.1, 0))
+        for obstacles in [box], [box, ball]:  # a ball as near, with the same slope
+            scene, robot = loaded(slide, "plate.urdf", None, obstacles)
+            c = scene.clearance(robot, [0], jac=True, jac_error=True)
+            self.assertEqual((bool(c.is_ridge[0]), c.jac[0, 0].round(9)), (False, -1))
+        scene, robot = loaded(slide, "plate.urdf", None, [box])
+        self.assertTrue(np.isinf(scene.clearance(robot, [0], jac=True, jac_error=True).jac_error[0, 0]))
+
+    def test_need_shapes_of_the_robot(self):
+        scene, robot = loaded('<robot name="bare"><link name="base"/></robot>', "bare.urdf", None, [(mk.sphere(0.3), at(1, 0, 0))])
+        with self.assertRaisesRegex(mk.Error, "must have shapes"):
+            scene.clearance(robot, np.zeros((1, 0)))
+
+
 class AllowedPairs(unittest.TestCase):
     def setUp(self):
         self.scene, self.robot = loaded(ROW, "row.urdf")

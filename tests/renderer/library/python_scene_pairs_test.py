@@ -104,6 +104,9 @@ class Scenes(unittest.TestCase):
         order = np.argsort(d, axis=1)[:, :5]
         np.testing.assert_array_equal(r.object, order)
         np.testing.assert_allclose(r.value, np.take_along_axis(d, order, 1), atol=1e-8)
+        folded = scene.nearest(points.reshape(5, 2, 5, 3), k=5, jac=True, jac_error=True)
+        np.testing.assert_array_equal(folded.object, order.reshape(5, 2, 5, 5))
+        self.assertEqual((folded.jac.shape, folded.jac_error.shape), ((5, 2, 5, 5, 6), (5, 2, 5, 5, 2)))
         few = scene.nearest(points[0], k=100)
         self.assertEqual((few.object[0] != mk.NO_OBJECT).sum(), 61)
         self.assertTrue(np.isinf(few.value[0, 61:]).all())
@@ -172,7 +175,42 @@ class Scenes(unittest.TestCase):
             np.testing.assert_allclose(m.gaps, -0.01, atol=1e-9)
             self.assertAlmostEqual(m.value, -0.01)
             self.assertEqual({tuple(p) for p in m.points[:, :2].round(6)}, {(2 + x, 1 + y) for x in (-0.5, 0.5) for y in (-0.4, 0.4)})
-        self.assertEqual(int(scene.manifold(box, top).count), 4)
+        m = scene.manifold(box, top)
+        self.assertEqual((int(m.count), len(m), len(list(m))), (4, 4, 4))
+        for k, one in enumerate(m):
+            self.assertEqual((len(one), float(one.gaps), float(one.value)), (1, float(m.gaps[k]), float(m.value)))
+            np.testing.assert_array_equal(one.points_a, m.points_a[k])
+        np.testing.assert_array_equal(m[1:3].points, m.points[1:3])
+        self.assertEqual(len(m[1:3]), 2)
+        with self.assertRaises(IndexError):
+            m[4]
+
+    def test_without_an_object_have_no_derivative(self):
+        scene = mk.Scene()
+        scene.add(mk.sphere(1))
+        far, ball = [9, 0, 0, 1, 0, 0, 0], mk.sphere(1)
+        for r in (scene.distance_to(ball, far, within=1, jac=True, jac_error=True),
+                  scene.nearest(far[:3], within=1, jac=True, jac_error=True),
+                  scene.time_of_impact(ball, far, [1, 0, 0, 0, 0, 0], jac=True, jac_error=True)):
+            self.assertTrue((r.object == mk.NO_OBJECT).all())
+            self.assertTrue(np.isnan(r.jac).all() and np.isnan(r.jac_error).all() and not r.is_ridge.any())
+
+    def test_are_told_of_and_stopped(self):
+        rng = np.random.default_rng(3)
+        cone, at = mk.cone(0.5, 1), np.concatenate([rng.uniform(-2, 2, (3000, 3)), rng.normal(size=(3000, 4))], 1)
+        scene = mk.Scene()
+        for pose in matrices(at[:400]):
+            scene.add(mk.ellipsoid([1, 0.6, 0.4]), pose)
+        for work in (lambda told: scene.distances(within=9, threads=1, progress=told),
+                     lambda told: scene.distances([[0, 1]] * 50000, threads=1, jac=True, progress=told),
+                     lambda told: scene.distance_to(cone, at, threads=1, progress=told),
+                     lambda told: scene.nearest(np.tile(at[:, :3], (5, 1)), k=9, threads=1, progress=told),
+                     lambda told: scene.time_of_impact(cone, at + [9, 0, 0, 0, 0, 0, 0], [-3, 0, 0, 0, 1, 0], 3, threads=1, progress=told)):
+            heard = []
+            work(heard.append)
+            self.assertTrue(len(heard) >= 2 and heard == sorted(heard) and heard[-1] == 1, heard)
+            with self.assertRaisesRegex(mk.Error, "stopped"):
+                work(lambda done: True)
 
     def test_derivatives_are_told_about_the_objects_origins(self):
         scene, bodies, poses = random_scene(30, 7)

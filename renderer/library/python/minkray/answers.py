@@ -29,6 +29,13 @@ class _Arrays:
     def _first(self):
         return next(iter(vars(self).values()))
 
+    def _has(self, name):
+        """False if the arrays are only some, those of a given dict."""
+        return name in vars(self)
+
+    def _names(self):
+        return f"<minkray.{type(self).__name__} with {', '.join(vars(self)) or 'no arrays'}>"
+
     def __len__(self):
         return len(self._first())
 

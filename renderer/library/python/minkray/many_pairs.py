@@ -22,7 +22,8 @@ class Distances(_Arrays):
     normal : (N, 3) float64
         Unit vector from a to b, in the world.
     point_a, point_b : (N, 3) float64
-        Nearest points, in the world: ``point_b - point_a = value * normal``.
+        Nearest points, in the world: ``point_b - point_a = value * normal``, up to a sideways error of
+        ``sqrt(2 * value * (upper - lower))``; if they touch or overlap, of 3e-6 of the sizes.
     status : (N,) uint8
         A `DistanceStatus`.
     supports : (N,) int32
@@ -40,6 +41,8 @@ class Distances(_Arrays):
     """
 
     def __repr__(self):
+        if not self._has("value"):
+            return self._names()
         least = f", the least {np.min(self.value):.6g}" if np.size(self.value) else ""
         return f"<minkray.Distances of {np.shape(self.value)}{least}>"
 
@@ -70,6 +73,8 @@ class Impacts(_Arrays):
     """
 
     def __repr__(self):
+        if not self._has("t_lo") or not self._has("t_hi"):
+            return self._names()
         return f"<minkray.Impacts of {np.shape(self.t_lo)}: {int(np.isfinite(self.t_hi).sum())} touch>"
 
 
@@ -85,7 +90,9 @@ class Manifolds(_Arrays):
     points : (N, 4, 3) float64
         Midpoints between points_a and points_b, in the world; NaN from index `count` on.
     points_a, points_b : (N, 4, 3) float64
-        On the bodies: ``points_b - points_a = gaps * normal``. The first pair are the nearest points.
+        ``points_b - points_a = gaps * normal``. The first pair are the nearest points; the others are on
+        the bodies if these are flat there. On curved bodies they are inside, by up to 0.02 times the
+        extent of the points.
     gaps : (N, 4) float64
         Distance at each point; negative: penetration depth.
     value, lower, upper : (N,) float64
@@ -95,6 +102,8 @@ class Manifolds(_Arrays):
     """
 
     def __repr__(self):
+        if not self._has("count"):
+            return self._names()
         return f"<minkray.Manifolds of {np.shape(self.count)}: {int(np.sum(self.count))} points>"
 
 
@@ -190,6 +199,9 @@ def room(kind, fields, shape, out):
     if not isinstance(out, (kind, dict)):
         raise Error(f"out: must be a {kind.__name__} or a dict of arrays (got {type(out).__name__})")
     arrays = dict(out if isinstance(out, dict) else vars(out))
+    missing = [name for name in fields if name not in arrays and name in (*_JAC, *_JAC_ERROR)]
+    if missing and not isinstance(out, dict):
+        raise Error(f"out: must have {', '.join(missing)}, as a result of the same call has (got {', '.join(arrays)})")
     for name, array in arrays.items():
         if name not in fields:
             raise Error(f"out[{name!r}]: must be one of {', '.join(fields)}")
@@ -213,7 +225,7 @@ def _memory(memory, shape):
     return memory
 
 
-def _progress(progress):
+def progress_of(progress):
     if progress is not None and not callable(progress):
         raise Error(f"progress: must be a function of one number (got {type(progress).__name__})")
     return progress
@@ -312,7 +324,7 @@ def signed_distances(a, pose_a, b, pose_b, *, jac=False, jac_error=False, tolera
     arrays = room(Distances, {**_DISTANCES, **(_JAC if jac else {}), **(_JAC_ERROR if jac_error else {})}, shape, out)
     call_c(_minkray.signed_distances, sides.side("a"), sides.side("b"), sides.together.count,
          number_of(tolerance, "tolerance"), _memory(memory, shape), arrays, threads_of(threads),
-         _progress(progress))
+         progress_of(progress))
     return out if isinstance(out, Distances) else Distances(arrays)
 
 
@@ -353,7 +365,7 @@ def times_of_impact(a, pose_a, twist_a, b, pose_b, twist_b, t_max=1.0, *, jac=Fa
     shape = sides.together.shape
     arrays = room(Impacts, {**_IMPACTS, **(_JAC if jac else {}), **(_JAC_ERROR if jac_error else {})}, shape, out)
     call_c(_minkray.times_of_impact, sides.side("a"), sides.side("b"), sides.together.count,
-         sides.together["t_max"], _memory(memory, shape), arrays, threads_of(threads), _progress(progress))
+         sides.together["t_max"], _memory(memory, shape), arrays, threads_of(threads), progress_of(progress))
     return out if isinstance(out, Impacts) else Impacts(arrays)
 
 
@@ -388,5 +400,5 @@ def manifolds(a, pose_a, b, pose_b, *, tolerance=1e-10, memory=None, threads=0, 
     arrays = room(Manifolds, _MANIFOLDS, shape, out)
     call_c(_minkray.manifolds, sides.side("a"), sides.side("b"), sides.together.count,
          number_of(tolerance, "tolerance"), _memory(memory, shape), arrays, threads_of(threads),
-         _progress(progress))
+         progress_of(progress))
     return out if isinstance(out, Manifolds) else Manifolds(arrays)

@@ -54,7 +54,8 @@ class Distance(_Answer):
     lower, upper : float or (...) array
         Proven bounds: ``lower <= value <= upper``.
     point_a, point_b : (..., 3) array
-        Nearest points: ``point_b - point_a = value * normal``.
+        Nearest points: ``point_b - point_a = value * normal``, up to a sideways error of
+        ``sqrt(2 * value * (upper - lower))``; if they touch or overlap, of 3e-6 of the sizes.
     normal : (..., 3) array
         Unit vector from a to b.
     status : DistanceStatus or (...) array

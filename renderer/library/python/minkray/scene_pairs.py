@@ -7,8 +7,8 @@ import numpy as np
 from . import _minkray
 from .answers import _Arrays
 from .calls import Error, array_of, name_of, number_of, public, shapes_array, vectors_of, whole_number_of
-from .many_pairs import (Manifolds, Together, _rows_in_one_piece, poses_array, threads_of, call_c,
-                         twists_array)
+from .many_pairs import (Manifolds, Together, _rows_in_one_piece, poses_array, progress_of, threads_of,
+                         call_c, twists_array)
 from .robots import robot_of
 
 _DISTANCE = [("value", "f8"), ("lower", "f8"), ("upper", "f8"), ("point_a", "f8", 3), ("point_b", "f8", 3),
@@ -63,9 +63,10 @@ class Nearest(_Arrays):
     jac, is_ridge : six numbers, and bool
         With ``jac=True``: the derivative of `value` with respect to a twist of the shape (for a
         point, its velocity), and True where it may be ambiguous. Other objects at the same distance
-        do not make it ambiguous.
+        do not make it ambiguous. NaN without an object.
     jac_error : two numbers
-        With ``jac_error=True``: bounds of the length of the error of `jac`, as in `Distances`.
+        With ``jac_error=True``: bounds of the length of the error of `jac`, as in `Distances`; NaN
+        without an object.
     """
 
     def __repr__(self):
@@ -85,6 +86,7 @@ class SceneImpacts(_Arrays):
         As in `Impacts`; a is the shape.
     jac, is_ridge : (N, 6) float64, (N,) bool
         With ``jac=True``: the derivative of the time with respect to a twist of the shape at time 0.
+        Other objects met at the same time do not make it ambiguous.
     jac_error : (N, 2) float64
         With ``jac_error=True``: bounds of the length of the error of `jac`, as in `Impacts`.
     """
@@ -96,10 +98,19 @@ class SceneImpacts(_Arrays):
 class Manifold(_Arrays):
     """Contact points of two objects: one entry of `Manifolds`."""
 
-    __doc__ += Manifolds.__doc__[Manifolds.__doc__.index("\n\n"):].replace("(N,)", "").replace("(N, ", "(")
+    __doc__ += (" ``manifold[k]`` is that of point k alone; ``len(manifold)`` is `count`."
+                + Manifolds.__doc__[Manifolds.__doc__.index("\n\n"):].replace("(N,)", "").replace("(N, ", "("))
 
     def __len__(self):
         return int(self.count)
+
+    def __getitem__(self, key):
+        """Selects points by an index, a slice, a mask, or an array of indices."""
+        fields = dict(vars(self))
+        for name in "points", "points_a", "points_b", "gaps":
+            fields[name] = fields[name][:len(self)][key]
+        fields["count"] = np.int32(np.size(fields["gaps"]))
+        return Manifold(fields)
 
     def __repr__(self):
         return f"<minkray.Manifold of {int(self.count)} points>"
@@ -242,7 +253,8 @@ class PairsOfScene:
         _call_c(_minkray.scene_allow_from_srdf, self._scene, robot_of(robot, self._scene)._group, name_of(file))
 
     @_public
-    def distances(self, pairs=None, within=None, *, tolerance=1e-10, jac=False, jac_error=False, threads=0):
+    def distances(self, pairs=None, within=None, *, tolerance=1e-10, jac=False, jac_error=False, threads=0,
+                  progress=None):
         """All pairs of objects within a distance of each other.
 
         Skips pairs excluded by `allow` or `set_masks`, pairs of half-spaces, and links of a robot that
@@ -263,6 +275,8 @@ class PairsOfScene:
             Add bounds of the derivatives' errors.
         threads : int
             0: one per core. Results are bit-identical for any number.
+        progress : callable, optional
+            Called from time to time with the fraction done; return True to stop.
 
         Returns
         -------
@@ -282,7 +296,7 @@ class PairsOfScene:
         pairs = None if pairs is None else _numbers(pairs, "pairs")
         rows, errors = _call_c(_minkray.scene_distances, self._ready(), pairs, within,
                                number_of(tolerance, "tolerance"), bool(jac), bool(jac_error),
-                               threads_of(threads))
+                               threads_of(threads), progress_of(progress))
         fields = _columns(rows.view(_PAIR), _OF_PAIR, jac)
         if jac_error:
             errors = errors.reshape(-1, 2, 2)
@@ -290,12 +304,13 @@ class PairsOfScene:
         return ScenePairs(fields)
 
     @_public
-    def nearest(self, points, k=1, *, within=np.inf, mask=_ALL, jac=False, jac_error=False, threads=0):
+    def nearest(self, points, k=1, *, within=np.inf, mask=_ALL, jac=False, jac_error=False, threads=0,
+                progress=None):
         """The k objects nearest to points.
 
         Parameters
         ----------
-        points : (N, 3) or (3,) array
+        points : (..., 3) array
             In the world.
         k : int
             At least 1.
@@ -303,27 +318,27 @@ class PairsOfScene:
             Objects that are proven to be further away are skipped.
         mask : int
             Categories to query; see `set_masks`.
-        jac, jac_error, threads
+        jac, jac_error, threads, progress
             As for `distances`.
 
         Returns
         -------
         Nearest
-            Of shape (N, k).
+            Of shape (N, k) for N points.
         """
-        points = np.ascontiguousarray(np.atleast_2d(vectors_of(points, "points", 3)))
-        if points.ndim != 2:
-            raise Error(f"points: must have the shape (N, 3) (got {points.shape})")
+        points = np.atleast_2d(vectors_of(points, "points", 3))
+        shape, points = points.shape[:-1], np.ascontiguousarray(points.reshape(-1, 3))
         k = whole_number_of(k, "k")
         if k == 0:
             raise Error("k: must be at least 1 (got 0)")
-        errors = np.empty((len(points), k, 4)) if jac_error else None
+        errors = np.empty(shape + (k, 4)) if jac_error else None
         rows = _call_c(_minkray.scene_nearest, self._ready(), points, k, _length(within, "within"), bool(jac),
-                     errors, _mask(mask), threads_of(threads)).view(_PAIR).reshape(len(points), k)
-        return _nearest_of(rows, jac, errors)
+                     errors, _mask(mask), threads_of(threads), progress_of(progress))
+        return _nearest_of(rows.view(_PAIR).reshape(shape + (k,)), jac, errors)
 
     @_public
-    def distance_to(self, shape, poses, within=np.inf, *, mask=_ALL, jac=False, jac_error=False, threads=0):
+    def distance_to(self, shape, poses, within=np.inf, *, mask=_ALL, jac=False, jac_error=False, threads=0,
+                    progress=None):
         """The object nearest to a shape outside of the scene, at many poses.
 
         Parameters
@@ -331,7 +346,7 @@ class PairsOfScene:
         shape : Shape, or list of N of them
         poses : (N, 4, 4), (N, 3, 4) or (N, 7) array, or one of them
             Rigid; as for `minkray.signed_distances`.
-        within, mask, jac, jac_error, threads
+        within, mask, jac, jac_error, threads, progress
             As for `nearest`.
 
         Returns
@@ -343,12 +358,13 @@ class PairsOfScene:
         moved = _Moved(shape, poses)
         errors = np.empty(moved.together.shape + (4,)) if jac_error else None
         rows = _call_c(_minkray.scene_distance_to, self._ready(), moved.side(), moved.together.count,
-                     _length(within, "within"), bool(jac), errors, _mask(mask), threads_of(threads))
+                     _length(within, "within"), bool(jac), errors, _mask(mask), threads_of(threads),
+                     progress_of(progress))
         return _nearest_of(rows.view(_PAIR).reshape(moved.together.shape), jac, errors)
 
     @_public
     def time_of_impact(self, shape, poses, twists, t_max=1.0, *, mask=_ALL, jac=False, jac_error=False,
-                       threads=0):
+                       threads=0, progress=None):
         """First contact of a shape that moves and turns through the scene.
 
         Parameters
@@ -361,7 +377,7 @@ class PairsOfScene:
             As for `minkray.times_of_impact`: about the origin of the shape's frame.
         t_max : float or (N,) array
             Finite, at least 0.
-        mask, jac, threads
+        mask, jac, threads, progress
             As for `nearest`.
         jac_error : bool
             Add bounds of the derivatives' errors.
@@ -374,7 +390,8 @@ class PairsOfScene:
                        t_max=(array_of(t_max, "t_max", "a number, or one per pose"), 0))
         errors = np.empty((moved.together.count, 2)) if jac_error else None
         rows = _call_c(_minkray.scene_time_of_impact, self._ready(), moved.side(), moved.together.count,
-                     moved.together["t_max"], bool(jac), errors, _mask(mask), threads_of(threads))
+                     moved.together["t_max"], bool(jac), errors, _mask(mask), threads_of(threads),
+                     progress_of(progress))
         fields = _columns(rows.view(_IMPACT).reshape(moved.together.shape), _OF_IMPACT, jac)
         if jac_error:
             fields["jac_error"] = errors.reshape(moved.together.shape + (2,))

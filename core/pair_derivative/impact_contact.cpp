@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "core/pair_derivative/impact_contact.h"
+
+#include "core/pair_derivative/pair_derivative.h"
+
+namespace minkray {
+namespace {
+
+bool is_curved(const ShapeCore& core) {
+  return core.kind == CoreKind::other || slides(core.kind);
+}
+
+/// Sets normal and points to those of a contact of the cores.
+void take(const CoresInWorld& cores, const Vec3<double>& middle, const CoreContact& contact,
+          const Vec3<double>& shift, Impact& found) {
+  found.normal = contact.normal;
+  found.point_a = middle + contact.a + cores.a.radius * contact.normal;
+  found.point_b = middle + contact.a + contact.c - cores.b.radius * contact.normal - shift;
+}
+
+/// Moves B away along the normal by a small part of the sizes, where the distance determines the
+/// normal. It is that of the contact if the given normal is; otherwise its error is less, by the
+/// factor of this distance and the surfaces' radii of curvature.
+bool settle_apart(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
+                  const Affine<double>& pose_b, const Vec3<double>& middle, Impact& found) {
+  constexpr double part = 1e-3;
+  const double way = part * (a.ball_radius() + b.ball_radius());
+  const Vec3<double> shift = way * found.normal;
+  Affine<double> apart = pose_b;
+  apart.translation += shift;
+  const SignedDistance there = signed_distance(a, pose_a, b, apart, for_derivatives());
+  if (there.status != SignedStatus::separated || !std::isfinite(there.upper)) return false;
+  const CoresInWorld cores(a, pose_a, b, apart);
+  const double radii = cores.a.radius + cores.b.radius;
+  CoreContact contact{there.normal, there.point_a - middle - cores.a.radius * there.normal,
+                      there.point_b - there.point_a + radii * there.normal};
+  sharpen(cores, contact);
+  take(cores, middle, contact, shift, found);
+  return true;
+}
+
+}  // namespace
+
+void settle(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
+            const RigidMotion& motion_b, Impact& found) {
+  const Affine<double> pose_a = motion_a.at(found.t_lo), pose_b = motion_b.at(found.t_lo);
+  const Vec3<double> middle = middle_in_world(a, pose_a);
+  if (is_curved(a.core()) || is_curved(b.core())) {
+    const CoresInWorld cores(a, pose_a, b, pose_b);
+    CoreContact contact{found.normal, Vec3<double>::Zero(), Vec3<double>::Zero()};
+    if (sharpen_curved(cores, contact))
+      return take(cores, middle, contact, Vec3<double>::Zero(), found);
+  }
+  constexpr double same = 1e-7;
+  constexpr int most_rounds = 3;
+  for (int round = 0; round < most_rounds; ++round) {
+    const Vec3<double> before = found.normal;
+    if (!settle_apart(a, pose_a, b, pose_b, middle, found)) return;
+    if ((found.normal - before).norm() <= same) return;
+  }
+}
+
+}  // namespace minkray
