@@ -305,7 +305,7 @@ typedef struct minkray_options {
 MINKRAY_API int minkray_scene_cast(minkray_scene scene, const minkray_ray* rays, size_t count,
                                    minkray_hit* hits, const minkray_options* options);
 
-/* Rays as arrays: strides are in bytes from one ray to the next. */
+/* Rays as arrays: strides are in bytes from one ray to the next; 0: contiguous. */
 typedef struct minkray_ray_arrays {
   size_t size; /* sizeof(minkray_ray_arrays) */
   const double* origins;
@@ -317,6 +317,10 @@ typedef struct minkray_ray_arrays {
 } minkray_ray_arrays;
 
 /* NULL arrays are not filled. */
+  /* Arrays of float, each instead of the one of double above. Read if `size` includes them. */
+  const float* float_origins;
+  const float* float_directions;
+  const float* float_t_max;
 typedef struct minkray_hit_arrays {
   size_t size; /* sizeof(minkray_hit_arrays) */
   double* t;

@@ -36,7 +36,7 @@ Shape make(const std::string& kind, const std::map<std::string, Doubles>& number
 }
 
 py::array_t<double> support(const Shape& shape, const py::object& directions) {
-  const Doubles rows(rows_of(directions, 3, "directions").array);
+  const Doubles rows(rows_of<double>(directions, 3, "directions").array);
   py::array_t<double> points({rows.shape(0), py::ssize_t{3}});
   const auto* n = reinterpret_cast<const double(*)[3]>(rows.data());
   auto* p = reinterpret_cast<double(*)[3]>(points.mutable_data());

@@ -113,8 +113,8 @@ def whole_number_of(value, argument, most=2**32 - 1):
     return number
 
 
-def array_of(value, argument, must_be="an array of numbers"):
-    """The value as an array of doubles, if it is one of plain numbers."""
+def array_of(value, argument, must_be="an array of numbers", keeps=(np.float64,)):
+    """The value as an array of doubles, or of another kept type, if it is one of plain numbers."""
     parts = value if isinstance(value, (list, tuple)) else (value,)
     if any(isinstance(part, np.ma.MaskedArray) for part in parts):
         raise Error(f"{argument}: must not be a masked array: fill it first")
@@ -126,7 +126,7 @@ def array_of(value, argument, must_be="an array of numbers"):
         raise Error(f"{argument}: must be {must_be} (got {type(value).__name__})") from None
     if array.dtype.kind not in "fiub":
         raise Error(f"{argument}: must be {must_be} (got values of {array.dtype})")
-    return array if array.dtype == np.float64 else array.astype(float)
+    return array if array.dtype in keeps else array.astype(float)
 
 
 def number_of(value, argument):

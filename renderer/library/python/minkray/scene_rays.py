@@ -15,16 +15,19 @@ def _public(function):
     return public(function, f"Scene.{function.__name__}")
 
 
+_KEPT = (np.float64, np.float32)  # types of rays that need no copy
+
+
 class RaysOfScene:
     """Casts at a `Scene`, and pictures."""
 
     @staticmethod
     def _rows(rays, t_max):
-        rays = array_of(rays, "rays")
+        rays = array_of(rays, "rays", keeps=_KEPT)
         if rays.ndim == 0 or rays.shape[-1] != 6:
             raise Error(f"rays: must have the shape (..., 6) (got {rays.shape})")
         if t_max is not None:
-            t_max = array_of(t_max, "t_max", "a number, or one per ray")
+            t_max = array_of(t_max, "t_max", "a number, or one per ray", _KEPT)
             try:
                 t_max = np.broadcast_to(t_max, rays.shape[:-1]).ravel() if t_max.ndim > 0 else t_max
             except ValueError:
@@ -45,7 +48,7 @@ class RaysOfScene:
         Parameters
         ----------
         rays : (N, 6) or (..., 6) array
-            Origin and direction (of any length except zero). Arrays of float64 are not copied.
+            Origin and direction (of any length except zero). Arrays of float64 and float32 are not copied.
         t_max : float or (...) array, optional
             Largest `t` of the ray. None: unlimited; 0: only the origin.
         threads : int
