@@ -6,9 +6,11 @@ import numpy as np
 
 from . import _minkray
 from .answers import _Arrays
-from .calls import Error, array_of, name_of, number_of, public, shapes_array, vectors_of, whole_number_of
-from .many_pairs import (Manifolds, Together, _rows_in_one_piece, poses_array, threads_of, call_c,
+from .calls import (Error, array_of, name_of, number_of, poses_array, public, shapes_array, vectors_of,
+                    whole_number_of, without_options)
+from .many_pairs import (Manifolds, Together, _rows_in_one_piece, threads_of, call_c,
                          twists_array)
+from .pairs import DistanceStatus, ImpactStatus
 from .robots import robot_of
 
 _DISTANCE = [("value", "f8"), ("lower", "f8"), ("upper", "f8"), ("point_a", "f8", 3), ("point_b", "f8", 3),
@@ -183,7 +185,7 @@ def _call_c(call, *arguments):
         text = re.sub(r"^shapes\.(pose|twist)s", r"\1s", str(error))
         text = re.sub(r"^shapes\.shapes", "shape", text)
         text = re.sub(r"^object_a", "i", re.sub(r"^object_b", "j", text))
-        raise Error(re.sub(r"^options\.", "", text)) from None
+        raise Error(without_options(text)) from None
     return answer[0]
 
 

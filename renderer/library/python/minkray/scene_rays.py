@@ -6,7 +6,7 @@ import numpy as np
 
 from . import _minkray
 from .answers import EXHAUSTED, HIT, AllHits, Hits, Proofs
-from .calls import Error, array_of, public, text_of, whole_number_of
+from .calls import Error, array_of, list_of, public, text_of, whole_number_of
 from .many_pairs import threads_of
 from .rays import pinhole
 
@@ -280,9 +280,7 @@ class RaysOfScene:
         def often(number, name):
             return 0 if number is None else whole_number_of(number, name, 1000) or -1
 
-        if isinstance(aovs, str):
-            raise Error(f"aovs: must be a list of names, such as [{aovs!r}]")
-        names = ["rgb", *(text_of(name, f"aovs[{i}]") for i, name in enumerate(aovs))]
+        names = ["rgb", *(text_of(name, f"aovs[{i}]") for i, name in enumerate(list_of(aovs, "aovs", "names")))]
         return _minkray.render(self._ready(), json.dumps(view, default=plain) if view else "",
                                whole_number_of(width, "width"), whole_number_of(height, "height"),
                                whole_number_of(spp, "spp"), whole_number_of(seed, "seed", 2**64 - 1),

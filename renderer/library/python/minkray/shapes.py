@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Callable, Mapping, Optional, Sequence
 
 from . import _minkray
-from .calls import Error, Shape, array_of, name_of, public, shapes_of, text_of, vectors_of
+from .calls import Error, Shape, array_of, name_of, number_of, public, shapes_of, text_of, vectors_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -15,9 +15,13 @@ __all__ = ["box", "capsule", "cone", "custom", "cut_cylinder", "cylinder", "disk
            "make", "point", "read_shape", "segment", "sphere", "superellipsoid", "tapered_capsule", "triangle"]
 
 
+_SINGLE = ("radius", "half_height", "exponent")  # parameters that are one number
+
+
 def _made(kind, shapes=None, **numbers):
-    return _minkray.make(kind, {name: array_of(value, name) for name, value in numbers.items()},
-                         shapes or {})
+    given = {name: number_of(value, name) if name in _SINGLE else array_of(value, name)
+             for name, value in numbers.items()}
+    return _minkray.make(kind, given, shapes or {})
 
 
 @public
