@@ -153,6 +153,36 @@ class Copies(unittest.TestCase):
             pickle.dumps(mk.custom(lambda n: n), 1)
 
 
+class Statuses(unittest.TestCase):
+    def test_of_single_results_are_members_of_their_enum(self):
+        scene, ball = mk.Scene(), mk.sphere(1)
+        scene.add(ball)
+        scene.add(ball, [3, 0, 0, 1, 0, 0, 0])
+        ray, away = [-4, 0, 0, 1, 0, 0], [-4, 0, 0, -1, 0, 0]
+        poses = np.array([[0, 4, 0, 1, 0, 0, 0], [0, 1, 0, 1, 0, 0, 0]], float)
+        motion = ball, None, None, ball, poses, [0, -1, 0, 0, 0, 0]
+        for found, expected in ((scene.cast_rays(ray), mk.Status.HIT), (scene.cast_rays(away), mk.Status.MISS),
+                                (scene.cast_rays([ray, away])[1], mk.Status.MISS),
+                                (scene.all_hits(ray), mk.Status.HIT), (scene.exit(0, ray), mk.Status.HIT),
+                                (mk.signed_distance(ball, None, ball, poses)[1], mk.DistanceStatus.OVERLAPPING),
+                                (mk.signed_distances(ball, None, ball, poses)[0], mk.DistanceStatus.SEPARATED),
+                                (mk.manifolds(ball, None, ball, poses)[1], mk.DistanceStatus.OVERLAPPING),
+                                (scene.manifold(0, 1), mk.DistanceStatus.SEPARATED),
+                                (scene.nearest([[0, 9, 0]])[0][0], mk.DistanceStatus.SEPARATED),
+                                (scene.distances(within=2)[0], mk.DistanceStatus.SEPARATED),
+                                (mk.time_of_impact(*motion, 9)[1], mk.ImpactStatus.BEGINS_INSIDE),
+                                (mk.times_of_impact(*motion, 9)[0], mk.ImpactStatus.NO_IMPACT),
+                                (scene.time_of_impact(ball, poses, [0, -1, 0, 0, 0, 0], 9)[0], mk.ImpactStatus.IMPACT)):
+            self.assertIs(found.status, expected)
+            repr(found)
+        self.assertIs(mk.IMPACT_UNDECIDED, mk.ImpactStatus.UNDECIDED)
+        table = mk.signed_distance(ball, None, ball, poses)
+        self.assertEqual(len(table), 2)
+        self.assertEqual(table[table.status == mk.SEPARATED].value.tolist(), [2])
+        self.assertEqual(len(mk.time_of_impact(*motion, 9)), 2)
+        self.assertEqual(scene.cast_rays(ray)[()].t, 3)
+
+
 class Poses(unittest.TestCase):
     def test_are_of_the_same_kinds_everywhere(self):
         half = np.sqrt(0.5)

@@ -41,6 +41,8 @@ class Distances(_Arrays):
         curvature.
     """
 
+    _statuses = DistanceStatus
+
     def __repr__(self):
         least = f", the least {np.min(self.value):.6g}" if np.size(self.value) else ""
         return f"<minkray.Distances of {np.shape(self.value)}{least}>"
@@ -71,6 +73,8 @@ class Impacts(_Arrays):
         also for two shapes without a radius: neither spheres, capsules nor rounded.
     """
 
+    _statuses = ImpactStatus
+
     def __repr__(self):
         return f"<minkray.Impacts of {np.shape(self.t_lo)}: {int(np.isfinite(self.t_hi).sum())} touch>"
 
@@ -95,6 +99,8 @@ class Manifolds(_Arrays):
     status : (N,) uint8
         A `DistanceStatus`.
     """
+
+    _statuses = DistanceStatus
 
     def __repr__(self):
         return f"<minkray.Manifolds of {np.shape(self.count)}: {int(np.sum(self.count))} points>"

@@ -45,6 +45,8 @@ class ScenePairs(_Arrays):
         With ``jac_error=True``, as in `Distances`; inf for meshes, except above half-spaces.
     """
 
+    _statuses = DistanceStatus
+
     def __repr__(self):
         return f"<minkray.ScenePairs: {len(self)}>"
 
@@ -70,6 +72,8 @@ class Nearest(_Arrays):
         With ``jac_error=True``: bounds of the length of the error of `jac`, as in `Distances`.
     """
 
+    _statuses = DistanceStatus
+
     def __repr__(self):
         return f"<minkray.Nearest of {np.shape(self.object)}>"
 
@@ -91,6 +95,8 @@ class SceneImpacts(_Arrays):
         With ``jac_error=True``: bounds of the length of the error of `jac`, as in `Impacts`.
     """
 
+    _statuses = ImpactStatus
+
     def __repr__(self):
         return f"<minkray.SceneImpacts of {np.shape(self.t_lo)}: {int(np.isfinite(self.t_hi).sum())} touch>"
 
@@ -99,6 +105,8 @@ class Manifold(_Arrays):
     """Contact points of two objects: one entry of `Manifolds`."""
 
     __doc__ += Manifolds.__doc__[Manifolds.__doc__.index("\n\n"):].replace("(N,)", "").replace("(N, ", "(")
+
+    _statuses = DistanceStatus
 
     def __len__(self):
         return int(self.count)
