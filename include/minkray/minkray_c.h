@@ -129,6 +129,9 @@ typedef struct minkray_mesh_info {
 } minkray_mesh_info;
 /* Counts a mesh's vertices, triangles and defects. */
 MINKRAY_API int minkray_shape_mesh_info(minkray_shape shape, minkray_mesh_info* info);
+/* Copies a mesh's vertices and triangles: as many as minkray_mesh_info has. */
+MINKRAY_API int minkray_shape_mesh_arrays(minkray_shape shape, double (*vertices)[3],
+                                          uint32_t (*triangles)[3]);
 
 /* Sets the error message of a failing support function, for the query that called it. Ignored
  * outside of support functions. */
@@ -305,7 +308,7 @@ typedef struct minkray_options {
 MINKRAY_API int minkray_scene_cast(minkray_scene scene, const minkray_ray* rays, size_t count,
                                    minkray_hit* hits, const minkray_options* options);
 
-/* Rays as arrays: strides are in bytes from one ray to the next. */
+/* Rays as arrays: strides are in bytes from one ray to the next; 0: contiguous. */
 typedef struct minkray_ray_arrays {
   size_t size; /* sizeof(minkray_ray_arrays) */
   const double* origins;
@@ -314,6 +317,10 @@ typedef struct minkray_ray_arrays {
   ptrdiff_t direction_stride;
   const double* t_max; /* NULL: unlimited. 0 ends a ray at its origin */
   ptrdiff_t t_max_stride;
+  /* Arrays of float, each instead of the one of double above. Read if `size` includes them. */
+  const float* float_origins;
+  const float* float_directions;
+  const float* float_t_max;
 } minkray_ray_arrays;
 
 /* NULL arrays are not filled. */

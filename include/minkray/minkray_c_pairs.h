@@ -185,7 +185,8 @@ typedef struct minkray_scene_pair {
 
 typedef struct minkray_near_options {
   size_t size;         /* sizeof(minkray_near_options) */
-  double within;       /* pairs proven to be further apart are skipped; at least 0, or infinite */
+  double within;       /* pairs proven to be further apart are skipped; 0: the default, which is 0
+                        * for minkray_scene_distances without `pairs`, else infinite */
   double tolerance;    /* as in minkray_distance_options */
   int32_t derivatives; /* 1: add derivatives */
   uint32_t mask;       /* for given shapes and points: categories to test; 0: all */
@@ -209,7 +210,7 @@ typedef int (*minkray_take_pairs)(void* user, const minkray_scene_pair* pairs, s
  * or that are allowed, pairs of half-spaces, and links of a robot that do not move relative to each
  * other or that a joint connects. If `pairs` is not NULL, computes exactly these `count` pairs (two
  * numbers each), in their order, even if masks exclude them or they are allowed. Options may be
- * NULL: `within` is then 0, without derivatives. */
+ * NULL. */
 MINKRAY_API int minkray_scene_distances(minkray_scene scene, const uint32_t* pairs, size_t count,
                                         const minkray_near_options* options,
                                         minkray_take_pairs take, void* user,
@@ -223,7 +224,7 @@ MINKRAY_API int minkray_scene_nearest(minkray_scene scene, const double (*points
 
 /* The object nearest to each of many given shapes. The shapes are not part of the scene; in each
  * pair, a is the shape. There is always an object, unless the scene is empty or `within` excludes
- * all objects. Options may be NULL: `within` is then infinite. */
+ * all objects. Options may be NULL. */
 MINKRAY_API int minkray_scene_distance_to(minkray_scene scene, const minkray_bodies* shapes,
                                           size_t count, const minkray_near_options* options,
                                           minkray_scene_pair* nearest, const minkray_options* how);

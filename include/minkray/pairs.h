@@ -256,8 +256,9 @@ struct NearOptions {
 
 namespace detail {
 inline minkray_near_options plain(const NearOptions& options) {
+  // In C a zero is the default. Nothing lies between it and the next number.
   return {sizeof(minkray_near_options),
-          options.within,
+          options.within == 0 ? std::numeric_limits<double>::denorm_min() : options.within,
           options.tolerance,
           options.derivatives ? 1 : 0,
           options.mask,

@@ -34,6 +34,7 @@ struct NearQuery {
   const double** jac_errors = nullptr;
 };
 
+/// `within`: the default.
 NearQuery query_of(const minkray_near_options* options, double within) {
   NearQuery query;
   query.within = within;
@@ -43,7 +44,7 @@ NearQuery query_of(const minkray_near_options* options, double within) {
   if (!(options->within >= 0))
     wrong_use("options.within: must be >= 0 (got " + std::to_string(options->within) + ")");
   const minkray_distance_options plain = {sizeof plain, options->tolerance, 0, 0, 0};
-  query.within = options->within;
+  if (options->within != 0) query.within = options->within;
   query.distances = distance_options(&plain);
   query.derive = options->derivatives != 0;
   if (options->mask != 0) query.mask = options->mask;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // C interface: rays of lidars and cameras.
+#include <string>
+
+#include "renderer/base/errors.h"
 #include "renderer/library/handles/call.h"
 #include "renderer/library/handles/poses.h"
 #include "renderer/sensor/sensor_rays.h"
@@ -32,7 +35,12 @@ extern "C" int minkray_lidar_rays(const char* pattern, const minkray_pose* pose,
     if (size > 0) require(rays, "rays");
     const Affine<double> sensor = pose_of(pose, "pose");
     constexpr double turn = 0.1;  // of most lidars; times are not returned
-    give(rays_of_pattern(pattern, turn).rays, sensor, rays, size, needed);
+    try {
+      give(rays_of_pattern(pattern, turn).rays, sensor, rays, size, needed);
+    } catch (const WrongUsage& error) {
+      const std::string text = error.what();
+      wrong_use(text.starts_with("--") ? text.substr(2) : text);  // the name of an option
+    }
   });
 }
 

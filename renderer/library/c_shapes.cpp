@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // C interface: making and querying shapes.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -28,6 +29,12 @@ Vec3<double> of_ordinary_length(Vec3<double> direction) {
   std::frexp(direction.cwiseAbs().maxCoeff(), &exponent);
   for (double& x : direction) x = std::ldexp(x, -exponent);
   return direction;
+}
+
+const TriangleMesh& mesh_of(minkray_shape shape) {
+  const HeldShape& held = shape_of(shape, "shape");
+  if (!held.mesh()) wrong_use("shape: must be a mesh (got a convex shape)");
+  return *held.mesh();
 }
 
 }  // namespace
@@ -144,12 +151,22 @@ int minkray_shape_height_field(const double* heights, size_t rows, size_t column
 
 int minkray_shape_mesh_info(minkray_shape shape, minkray_mesh_info* info) {
   return call("minkray_shape_mesh_info", [&] {
-    const HeldShape& held = shape_of(shape, "shape");
+    const TriangleMesh& mesh = mesh_of(shape);
     require(info, "info");
-    if (!held.mesh()) wrong_use("shape: must be a mesh (got a convex shape)");
-    const MeshFaults faults = held.mesh()->faults();
-    *info = {held.mesh()->vertices().size(), held.mesh()->size(), faults.open_edges,
-             faults.without_area, faults.repeated};
+    const MeshFaults faults = mesh.faults();
+    *info = {mesh.vertices().size(), mesh.size(), faults.open_edges, faults.without_area,
+             faults.repeated};
+  });
+}
+
+int minkray_shape_mesh_arrays(minkray_shape shape, double (*vertices)[3],
+                              uint32_t (*triangles)[3]) {
+  return call("minkray_shape_mesh_arrays", [&] {
+    const TriangleMesh& mesh = mesh_of(shape);
+    require(vertices, "vertices");
+    require(triangles, "triangles");
+    for (const Vec3<double>& vertex : mesh.vertices()) std::copy_n(vertex.data(), 3, *vertices++);
+    for (const Corners& corners : mesh.triangles()) std::copy_n(corners.data(), 3, *triangles++);
   });
 }
 

@@ -65,8 +65,9 @@ void CallProgram::cast() {
   if (may_lie) return;
   promises_.expect(hits == again, "other hits when the rays are asked one by one");
 
-  minkray_ray_arrays arrays = {sizeof arrays,       nullptr, sizeof(minkray_ray), nullptr,
-                               sizeof(minkray_ray), nullptr, sizeof(minkray_ray)};
+  minkray_ray_arrays arrays = {};
+  arrays.size = sizeof arrays;
+  arrays.origin_stride = arrays.direction_stride = arrays.t_max_stride = sizeof(minkray_ray);
   if (count > 0) {
     arrays.origins = given.value[0].origin;
     arrays.directions = given.value[0].direction;
@@ -82,7 +83,7 @@ void CallProgram::cast() {
   places.objects = objects.data();
   places.status = status.data();
   Sure sizes = Sure::right;
-  if (hostile()) arrays.size -= 1, sizes = Sure::wrong;
+  if (hostile()) arrays.size = 8, sizes = Sure::wrong;
   if (hostile()) places.size = 0, sizes = Sure::wrong;
   code = minkray_scene_cast_arrays(of.value, &arrays, count, &places, how.value);
   if (!promises_.call("minkray_scene_cast_arrays", code, sizes, t.is_untouched())) return;

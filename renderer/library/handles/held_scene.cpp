@@ -107,6 +107,9 @@ void HeldScene::append(Scene&& from) {
   for (Object& object : from.objects) {
     object.material += shift;
     add_object(instances, object);
+    // Equal shapes share their points.
+    if (object.has_shape())
+      object.shape = instances.definition(instances.definition_of(size_)).original_shape();
     scene_.objects.push_back(std::move(object));
     ++size_;
   }

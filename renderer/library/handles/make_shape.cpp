@@ -123,8 +123,10 @@ class Arguments {
                                     std::size_t least, std::size_t most) {
     const std::size_t count = given.shapes ? given.shape_count : 0;
     if (count < least || count > most) {
-      mistakes_.add(path(field), (most == 1 ? "must be a shape (got " : "must be shapes (got ") +
-                                     std::to_string(count) + " of them)");
+      mistakes_.add(
+          path(field),
+          (most == 1 ? "must be a shape (got " : "must be shapes (got ") +
+              (given.numbers ? std::string("numbers") : std::to_string(count) + " of them") + ")");
       return std::nullopt;
     }
     ShapeList list;

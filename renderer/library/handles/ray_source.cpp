@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/library/handles/ray_source.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <string>
 
 #include "core/math/outward_sum.h"
@@ -13,36 +16,51 @@ RaySource::RaySource(const minkray_ray* rays, std::size_t count) : count_(count)
   if (count == 0) return;
   require(rays, "rays");
   require_room(count, sizeof(minkray_ray), "count");
-  origins_ = rays->origin;
-  directions_ = rays->direction;
-  t_max_ = &rays->t_max;
+  constexpr std::ptrdiff_t stride = sizeof(minkray_ray);
+  origins_ = column("origin", rays->origin, nullptr, stride, 3);
+  directions_ = column("direction", rays->direction, nullptr, stride, 3);
+  t_max_ = column("t_max", &rays->t_max, nullptr, stride, 1);
   zero_is_endless_ = true;
-  origin_stride_ = direction_stride_ = t_max_stride_ = sizeof(minkray_ray);
   check();
 }
 
 RaySource::RaySource(const minkray_ray_arrays* rays, std::size_t count) : count_(count) {
   require(rays, "rays");
-  if (rays->size < sizeof(minkray_ray_arrays))
+  if (rays->size < offsetof(minkray_ray_arrays, float_origins))
     wrong_use("rays.size: must be sizeof(minkray_ray_arrays)");
   if (count == 0) return;
   require_room(count, sizeof(double), "count");
-  require(rays->origins, "rays.origins");
-  require(rays->directions, "rays.directions");
-  origins_ = rays->origins;
-  directions_ = rays->directions;
-  t_max_ = rays->t_max;
-  origin_stride_ = rays->origin_stride;
-  direction_stride_ = rays->direction_stride;
-  t_max_stride_ = rays->t_max_stride;
+  minkray_ray_arrays from = {};
+  std::memcpy(&from, rays, std::min(rays->size, sizeof from));
+  // In programs of older libraries a stride of zero means one row for all rays.
+  is_zero_contiguous_ = rays->size >= sizeof from;
+  origins_ = column("origins", from.origins, from.float_origins, from.origin_stride, 3);
+  directions_ =
+      column("directions", from.directions, from.float_directions, from.direction_stride, 3);
+  t_max_ = column("t_max", from.t_max, from.float_t_max, from.t_max_stride, 1);
+  require(origins_.first, "rays.origins");
+  require(directions_.first, "rays.directions");
   check();
+}
+
+RaySource::Column RaySource::column(const char* name, const double* numbers, const float* floats,
+                                    std::ptrdiff_t stride, std::size_t width) {
+  if (numbers && floats)
+    wrong_use(std::string("rays.") + name + ", rays.float_" + name + ": must not both be given");
+  Column made{reinterpret_cast<const char*>(numbers), stride, floats != nullptr};
+  if (floats) {
+    made.first = reinterpret_cast<const char*>(floats);
+    has_floats_ = true;
+  }
+  if (stride == 0 && is_zero_contiguous_)
+    made.stride = static_cast<std::ptrdiff_t>(width * (floats ? sizeof(float) : sizeof(double)));
+  return made;
 }
 
 void RaySource::check() {
   for (std::size_t i = 0; i < count_; ++i) {
-    const double* o = at(origins_, origin_stride_, i);
-    const double* d = at(directions_, direction_stride_, i);
-    const double t_max = t_max_ ? *at(t_max_, t_max_stride_, i) : 1;
+    const Vec3<double> o = origins_.point(i), d = directions_.point(i);
+    const double t_max = t_max_.first ? t_max_.number(i) : 1;
     // A finite number times zero is zero, any other is not.
     const double zero = 0 * ((o[0] + 0 * o[1]) + 0 * o[2]) + 0 * ((d[0] + 0 * d[1]) + 0 * d[2]);
     const bool has_direction = d[0] != 0 || d[1] != 0 || d[2] != 0;
@@ -54,15 +72,15 @@ void RaySource::check() {
 
 void RaySource::complain(std::size_t i) const {
   const std::string place = "rays[" + std::to_string(i) + "].";
-  const auto check_finite = [&](const char* member, const double* numbers) {
+  const auto check_finite = [&](const char* member, const Vec3<double>& numbers) {
     for (int k = 0; k < 3; ++k)
       if (!std::isfinite(numbers[k]))
         wrong_use(place + member + "[" + std::to_string(k) + "]: must be a finite number (got " +
                   std::to_string(numbers[k]) + ")");
   };
-  check_finite("origin", at(origins_, origin_stride_, i));
-  check_finite("direction", at(directions_, direction_stride_, i));
-  const double t_max = t_max_ ? *at(t_max_, t_max_stride_, i) : 0;
+  check_finite("origin", origins_.point(i));
+  check_finite("direction", directions_.point(i));
+  const double t_max = t_max_.first ? t_max_.number(i) : 0;
   if (!(t_max >= 0)) wrong_use(place + "t_max: must be >= 0 (got " + std::to_string(t_max) + ")");
   wrong_use(place + "direction: must not be zero (got [0, 0, 0])");
 }

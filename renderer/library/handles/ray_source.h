@@ -20,10 +20,8 @@ class RaySource {
 
   std::size_t size() const { return count_; }
   Ray<double> operator[](std::size_t i) const {
-    const double* o = at(origins_, origin_stride_, i);
-    const double* d = at(directions_, direction_stride_, i);
-    Ray<double> ray{{o[0], o[1], o[2]}, {d[0], d[1], d[2]}};
-    if (t_max_) ray.t_max = *at(t_max_, t_max_stride_, i);
+    Ray<double> ray{origins_.point(i), directions_.point(i)};
+    if (t_max_.first) ray.t_max = t_max_.number(i);
     if (zero_is_endless_ && ray.t_max == 0) ray.t_max = std::numeric_limits<double>::infinity();
     return ray;
   }
@@ -31,31 +29,57 @@ class RaySource {
   /// `count` rays from the i-th on, where they lie, or copied to `room` if coordinates lie apart.
   RaySpan part(std::size_t i, std::size_t count, std::vector<Ray<double>>& room) const {
     static_assert(sizeof(Ray<double>) == sizeof(minkray_ray));
-    if (!has_zero_ends_ && origin_stride_ >= 0 && t_max_ == directions_ + 3 &&
-        directions_ == origins_ + 3 && origin_stride_ == direction_stride_ &&
-        origin_stride_ == t_max_stride_)
-      return {reinterpret_cast<const Ray<double>*>(at(origins_, origin_stride_, i)),
-              static_cast<std::size_t>(origin_stride_), count};
+    constexpr std::size_t size = 3 * sizeof(double);
+    const std::ptrdiff_t stride = origins_.stride;
+    if (!has_zero_ends_ && !has_floats_ && stride >= 0 && stride == directions_.stride &&
+        stride == t_max_.stride && directions_.first == origins_.first + size &&
+        t_max_.first == directions_.first + size)
+      return {reinterpret_cast<const Ray<double>*>(origins_.at(i)),
+              static_cast<std::size_t>(stride), count};
     room.resize(count);
     for (std::size_t k = 0; k < count; ++k) room[k] = (*this)[i + k];
     return {room.data(), sizeof(Ray<double>), count};
   }
 
  private:
+  /// Numbers of type double or float.
+  struct Column {
+    const char* first = nullptr;
+    std::ptrdiff_t stride = 0;
+    bool is_float = false;
+
+    const char* at(std::size_t i) const { return first + stride * static_cast<std::ptrdiff_t>(i); }
+    template <class Number>
+    const Number* row(std::size_t i) const {
+      return reinterpret_cast<const Number*>(at(i));
+    }
+    double number(std::size_t i) const {
+      return is_float ? double{*row<float>(i)} : *row<double>(i);
+    }
+    Vec3<double> point(std::size_t i) const {
+      if (is_float) {
+        const float* const p = row<float>(i);
+        return {p[0], p[1], p[2]};
+      }
+      const double* const p = row<double>(i);
+      return {p[0], p[1], p[2]};
+    }
+  };
+  /// Column of one of the given arrays, of `width` numbers a ray. Throws CallError if both are
+  /// given.
+  Column column(const char* name, const double* numbers, const float* floats, std::ptrdiff_t stride,
+                std::size_t width);
+
   /// Throws CallError that names the first ray which is none.
   void check();
   [[noreturn]] void complain(std::size_t i) const;
 
-  static const double* at(const double* first, std::ptrdiff_t stride, std::size_t i) {
-    return reinterpret_cast<const double*>(reinterpret_cast<const char*>(first) +
-                                           stride * static_cast<std::ptrdiff_t>(i));
-  }
-
   std::size_t count_;
-  const double *origins_ = nullptr, *directions_ = nullptr, *t_max_ = nullptr;
-  std::ptrdiff_t origin_stride_ = 0, direction_stride_ = 0, t_max_stride_ = 0;
-  bool zero_is_endless_ = false;  ///< of t_max, in structs
-  bool has_zero_ends_ = false;    ///< of those, some
+  Column origins_, directions_, t_max_;
+  bool has_floats_ = false;
+  bool is_zero_contiguous_ = false;  ///< of strides
+  bool zero_is_endless_ = false;     ///< of t_max, in structs
+  bool has_zero_ends_ = false;       ///< of those, some
 };
 
 /// The one ray of a struct; throws CallError as RaySource does. Most calls have one.

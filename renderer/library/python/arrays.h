@@ -20,16 +20,19 @@ using AnyDoubles = py::array_t<double, py::array::forcecast>;
 using Doubles = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 /// Rows of `width` numbers, each in one piece; others are copied.
+template <class Number>
 struct Rows {
-  AnyDoubles array;
+  py::array_t<Number, py::array::forcecast> array;
   std::size_t count;
-  const double* first;
+  const Number* first;
   py::ssize_t stride;  ///< bytes from row to row
 };
 
 /// Throws ValueError, which names the argument, unless it has the shape (N, width).
-inline Rows rows_of(const py::object& object, py::ssize_t width, const char* argument) {
-  AnyDoubles array = AnyDoubles::ensure(object);
+template <class Number>
+Rows<Number> rows_of(const py::object& object, py::ssize_t width, const char* argument) {
+  using Any = py::array_t<Number, py::array::forcecast>;
+  Any array = Any::ensure(object);
   if (!array) {
     PyErr_Clear();
     throw py::value_error(std::string(argument) + ": must be an array of numbers");
@@ -41,12 +44,12 @@ inline Rows rows_of(const py::object& object, py::ssize_t width, const char* arg
     throw py::value_error(std::string(argument) + ": must have the shape (N, " +
                           std::to_string(width) + ") (got " + shape + "))");
   }
-  if (array.shape(0) > 0 && array.strides(1) != static_cast<py::ssize_t>(sizeof(double)))
-    array = Doubles(array);
+  if (array.shape(0) > 0 && array.strides(1) != static_cast<py::ssize_t>(sizeof(Number)))
+    array = py::array_t<Number, py::array::c_style | py::array::forcecast>(array);
   // Such as a part of a file that was read into memory.
-  if (reinterpret_cast<std::uintptr_t>(array.data()) % alignof(double) != 0 ||
-      array.strides(0) % static_cast<py::ssize_t>(alignof(double)) != 0)
-    array = AnyDoubles(array.attr("copy")());
+  if (reinterpret_cast<std::uintptr_t>(array.data()) % alignof(Number) != 0 ||
+      array.strides(0) % static_cast<py::ssize_t>(alignof(Number)) != 0)
+    array = Any(array.attr("copy")());
   return {array, static_cast<std::size_t>(array.shape(0)), array.data(), array.strides(0)};
 }
 

@@ -16,7 +16,7 @@ using minkray::Scene;
 py::dict exit(const Scene& scene, std::uint32_t object, const py::object& rays,
               const py::object& t_max, int threads) {
   const RayRows source(rays, t_max);
-  const std::size_t count = source.rows.count;
+  const std::size_t count = source.size();
   const std::vector<minkray_ray> plain = source.plain();
   std::vector<minkray_hit> hits(count);
   Interruptible(threads).run([&](const minkray_options* options) {
@@ -77,7 +77,7 @@ py::dict all_hits(const Scene& scene, const py::object& rays, const py::object& 
       }
       return 1;
     };
-    return minkray_scene_all_hits(scene.handle(), &source.arrays, source.rows.count, take, &result,
+    return minkray_scene_all_hits(scene.handle(), source.arrays(), source.size(), take, &result,
                                   options);
   });
   return result;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pairs of a scene, for scene_pairs.py: rows of structs, which it takes apart.
 #include <cstring>
+#include <limits>
 
 #include "renderer/library/python/bind.h"
 #include "renderer/library/python/interruptible.h"
@@ -13,6 +14,8 @@ using minkray::Scene;
 using Bytes = py::array_t<std::uint8_t, py::array::c_style>;
 
 minkray_near_options options_of(double within, double tolerance, bool jac, std::uint32_t mask) {
+  // In C a zero is the default. Nothing lies between it and the next number.
+  if (within == 0) within = std::numeric_limits<double>::denorm_min();
   return {sizeof(minkray_near_options), within, tolerance, jac ? 1 : 0, mask, nullptr, nullptr};
 }
 

@@ -19,7 +19,7 @@ using minkray::Scene;
 py::dict cast(const Scene& scene, const py::object& rays, const py::object& t_max, int threads,
               bool jac, bool jac_error) {
   const RayRows source(rays, t_max);
-  const auto n = static_cast<py::ssize_t>(source.rows.count);
+  const auto n = static_cast<py::ssize_t>(source.size());
   py::dict result;
   const minkray_hit_arrays hits = {sizeof hits,
                                    add_column<double>(result, "t", n),
@@ -44,10 +44,10 @@ py::dict cast(const Scene& scene, const py::object& rays, const py::object& t_ma
     derivatives.jac_error_body = add_column<double>(result, "jac_error_body", n, 2);
   }
   Interruptible(threads).run([&](const minkray_options* options) {
-    const int code = minkray_scene_cast_arrays(scene.handle(), &source.arrays, source.rows.count,
-                                               &hits, options);
+    const int code =
+        minkray_scene_cast_arrays(scene.handle(), source.arrays(), source.size(), &hits, options);
     if (code != MINKRAY_OK || (!jac && !jac_error)) return code;
-    return minkray_scene_ray_derivatives(scene.handle(), &source.arrays, source.rows.count, &hits,
+    return minkray_scene_ray_derivatives(scene.handle(), source.arrays(), source.size(), &hits,
                                          &derivatives, options);
   });
   return result;
@@ -56,11 +56,10 @@ py::dict cast(const Scene& scene, const py::object& rays, const py::object& t_ma
 py::array_t<std::uint8_t> occluded(const Scene& scene, const py::object& rays,
                                    const py::object& t_max, int threads) {
   const RayRows source(rays, t_max);
-  py::array_t<std::uint8_t> blocked(static_cast<py::ssize_t>(source.rows.count));
+  py::array_t<std::uint8_t> blocked(static_cast<py::ssize_t>(source.size()));
   std::uint8_t* first = blocked.mutable_data();
   Interruptible(threads).run([&](const minkray_options* options) {
-    return minkray_scene_occluded(scene.handle(), &source.arrays, source.rows.count, first,
-                                  options);
+    return minkray_scene_occluded(scene.handle(), source.arrays(), source.size(), first, options);
   });
   return blocked;
 }
@@ -68,7 +67,7 @@ py::array_t<std::uint8_t> occluded(const Scene& scene, const py::object& rays,
 /// Casts and proves: answers are proven with all of their digits.
 py::dict certify(const Scene& scene, const py::object& rays, const py::object& t_max, int threads) {
   const RayRows source(rays, t_max);
-  const std::size_t count = source.rows.count;
+  const std::size_t count = source.size();
   const std::vector<minkray_ray> plain = source.plain();
   std::vector<minkray_hit> hits(count);
   std::vector<minkray_proof> proofs(count);

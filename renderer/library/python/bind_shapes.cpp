@@ -36,7 +36,7 @@ Shape make(const std::string& kind, const std::map<std::string, Doubles>& number
 }
 
 py::array_t<double> support(const Shape& shape, const py::object& directions) {
-  const Doubles rows(rows_of(directions, 3, "directions").array);
+  const Doubles rows(rows_of<double>(directions, 3, "directions").array);
   py::array_t<double> points({rows.shape(0), py::ssize_t{3}});
   const auto* n = reinterpret_cast<const double(*)[3]>(rows.data());
   auto* p = reinterpret_cast<double(*)[3]>(points.mutable_data());
@@ -152,6 +152,16 @@ Shape height_field(const py::array_t<double, py::array::c_style>& heights, doubl
                                bottom ? &*bottom : nullptr);
 }
 
+py::tuple mesh_arrays(const Shape& shape) {
+  const minkray::MeshInfo info = minkray::mesh_info(shape);
+  py::array_t<double> vertices({static_cast<py::ssize_t>(info.vertices), py::ssize_t{3}});
+  py::array_t<std::uint32_t> triangles({static_cast<py::ssize_t>(info.triangles), py::ssize_t{3}});
+  check(minkray_shape_mesh_arrays(shape.handle(),
+                                  reinterpret_cast<double(*)[3]>(vertices.mutable_data()),
+                                  reinterpret_cast<std::uint32_t(*)[3]>(triangles.mutable_data())));
+  return py::make_tuple(vertices, triangles);
+}
+
 py::dict mesh_info(const Shape& shape) {
   minkray::MeshInfo info;
   {
@@ -173,7 +183,7 @@ void bind_shapes(py::module_& module) {
   py::class_<Shape>(module, "Shape",
                     "An immutable convex shape or mesh.\n\n"
                     "Made by functions such as `minkray.box`; see `minkray.custom` for your own.")
-      .def_property_readonly("kind", &Shape::kind, "str : such as 'rounded'")
+      .def("_kind", &Shape::kind)
       .def("_support", &support)
       .def("_bounds",
            [](const Shape& shape) {
@@ -187,26 +197,23 @@ void bind_shapes(py::module_& module) {
              return corners;
            })
       .def("_json", &Shape::json<std::string>)
-      .def("__repr__",
-           [](const Shape& shape) {
-             if (std::string(shape.kind()) == "custom")
-               return std::string("<minkray.Shape custom>");
-             if (std::string(shape.kind()) == "mesh") return std::string("<minkray.Shape mesh>");
-             try {
-               std::string text = shape.json<std::string>();
-               if (text.size() > 200) text = text.substr(0, 197) + "...";
-               return "<minkray.Shape " + text + ">";
-             } catch (const minkray::Error&) {  // of what is custom within
-               return "<minkray.Shape " + std::string(shape.kind()) + ", custom within>";
-             }
-           })
-      .def(py::pickle([](const Shape& shape) { return shape.json<std::string>(); },
-                      [](const std::string& text) { return minkray::read_shape(text); }));
+      .def("__repr__", [](const Shape& shape) {
+        if (std::string(shape.kind()) == "custom") return std::string("<minkray.Shape custom>");
+        if (std::string(shape.kind()) == "mesh") return std::string("<minkray.Shape mesh>");
+        try {
+          std::string text = shape.json<std::string>();
+          if (text.size() > 200) text = text.substr(0, 197) + "...";
+          return "<minkray.Shape " + text + ">";
+        } catch (const minkray::Error&) {  // of what is custom within
+          return "<minkray.Shape " + std::string(shape.kind()) + ", custom within>";
+        }
+      });
   module.def("make", &make);
   module.def("custom", &custom);
   module.def("mesh", &mesh);
   module.def("height_field", &height_field);
   module.def("mesh_info", &mesh_info);
+  module.def("mesh_arrays", &mesh_arrays);
   module.def("read_shape", [](const std::string& json, const std::string& folder) {
     return minkray::read_shape(json, folder);
   });

@@ -13,7 +13,7 @@ PYBIND11_MODULE(_minkray, module) {
     try {
       if (thrown) std::rethrow_exception(thrown);
     } catch (const minkray::Error& what) {
-      error(what.what());
+      if (!restore_kept()) error(what.what());
     }
   });
   watch_end_of_interpreter();

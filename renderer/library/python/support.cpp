@@ -2,7 +2,9 @@
 #include "renderer/library/python/support.h"
 
 #include <cstring>
+#include <memory>
 #include <string>
+#include <utility>
 
 #include "renderer/library/python/interpreter_lock.h"
 
@@ -16,6 +18,24 @@ constexpr std::size_t gathered = 4096;
 int& depth() {
   thread_local int running = 0;
   return running;
+}
+
+/// An exception that ends more than a query, such as SystemExit: thrown again by the call that it
+/// ends. Null if there is none. Guarded by the interpreter's lock.
+py::error_already_set*& kept() {
+  static py::error_already_set* error = nullptr;
+  return error;
+}
+
+/// Such as "KeyError: 'x'".
+std::string text_of(const py::error_already_set& error) {
+  std::string text = error.type().attr("__name__").cast<std::string>();
+  try {
+    const auto detail = py::str(error.value()).cast<std::string>();
+    if (!detail.empty()) text += ": " + detail;
+  } catch (const py::error_already_set&) {  // of an exception that has no text
+  }
+  return text;
 }
 
 /// Calls the function; answers 1, with a reason, if its answer has another shape.
@@ -58,13 +78,25 @@ int ask(void* user, std::size_t count, const double (*directions)[3], double (*p
     const int failed = answer_once(support, count, directions, points);
     PyErr_SetInterrupt();
     return failed;
+  } catch (py::error_already_set& error) {
+    minkray_support_failed(text_of(error).c_str());
+    if (!error.matches(PyExc_Exception)) {
+      delete std::exchange(kept(), nullptr);
+      kept() = new py::error_already_set(error);
+    }
   } catch (const std::exception& error) {
     minkray_support_failed(error.what());
-    return 1;
   }
+  return 1;
 }
 
 }  // namespace
+
+bool restore_kept() {
+  const std::unique_ptr<py::error_already_set> error(std::exchange(kept(), nullptr));
+  if (error) error->restore();
+  return error != nullptr;
+}
 
 minkray::Shape custom(const py::function& support, const py::object& bounds) {
   minkray_support given = {};

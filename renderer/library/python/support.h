@@ -12,4 +12,8 @@ minkray::Shape custom(const py::function& support, const py::object& bounds);
 /// True on a thread that is running one.
 bool is_in_support();
 
+/// Sets Python's error to the exception that a support function raised to end more than its query,
+/// such as SystemExit; false if there is none.
+bool restore_kept();
+
 }  // namespace minkray_python

@@ -77,12 +77,148 @@ TEST(Defaults, a_limit_of_zero_in_a_struct_is_no_limit) {
   // In an array it ends the ray.
   const double end = 0;
   double t = 0;
-  const minkray_ray_arrays arrays = {sizeof arrays, c_ray.origin, 0, c_ray.direction, 0, &end, 0};
+  minkray_ray_arrays arrays = {};
+  arrays.size = sizeof arrays;
+  arrays.origins = c_ray.origin;
+  arrays.directions = c_ray.direction;
+  arrays.t_max = &end;
   minkray_hit_arrays hits = {};
   hits.size = sizeof hits;
   hits.t = &t;
   ASSERT_EQ(minkray_scene_cast_arrays(scene.handle(), &arrays, 1, &hits, nullptr), MINKRAY_OK);
   EXPECT_EQ(t, infinity);
+}
+
+/// t of each ray, or the error.
+std::vector<double> cast_arrays(const mk::Scene& scene, const minkray_ray_arrays& rays,
+                                std::size_t count, int code = MINKRAY_OK) {
+  std::vector<double> t(count);
+  minkray_hit_arrays hits = {};
+  hits.size = sizeof hits;
+  hits.t = t.data();
+  EXPECT_EQ(minkray_scene_cast_arrays(scene.handle(), &rays, count, &hits, nullptr), code);
+  return t;
+}
+
+/// All rays were the first one.
+TEST(Defaults, strides_of_zero_mean_that_rays_are_contiguous) {
+  mk::Scene scene;
+  scene.add(mk::sphere(1));
+  scene.commit();
+  const double origins[3][3] = {{-5, 0, 0}, {-6, 0, 0}, {-7, 0, 0}},
+               directions[3][3] = {{1, 0, 0}, {2, 0, 0}, {1, 0, 0}}, ends[3] = {9, 9, 5};
+  minkray_ray_arrays rays = {};
+  rays.size = sizeof rays;
+  rays.origins = origins[0];
+  rays.directions = directions[0];
+  rays.t_max = ends;
+  EXPECT_EQ(cast_arrays(scene, rays, 3), (std::vector{4.0, 2.5, infinity}));
+  std::uint8_t blocked[3];
+  ASSERT_EQ(minkray_scene_occluded(scene.handle(), &rays, 3, blocked, nullptr), MINKRAY_OK);
+  EXPECT_EQ(blocked[0], MINKRAY_HIT);
+  EXPECT_EQ(blocked[2], MINKRAY_MISS);
+  // Programs that were linked with an older library mean one row for all rays.
+  rays.size = offsetof(minkray_ray_arrays, float_origins);
+  EXPECT_EQ(cast_arrays(scene, rays, 3), (std::vector{4.0, 4.0, 4.0}));
+}
+
+TEST(Defaults, rays_of_floats_have_the_answers_of_the_same_numbers_in_double) {
+  mk::Scene scene;
+  scene.add(mk::rounded(mk::box({0.5, 0.4, 0.3}), 0.1));
+  scene.add(mk::sphere(0.7), mk::translation({1, 1, 0}));
+  scene.commit();
+  struct Row {
+    float origin[3], direction[3], t_max, unused;
+  };
+  std::vector<Row> floats;
+  std::vector<mk::Ray> doubles;
+  for (int i = 0; i < 5000; ++i) {
+    const float y = static_cast<float>(i % 71) * 0.04f - 1.4f,
+                z = static_cast<float>(i / 71) * 0.04f - 1.4f;
+    floats.push_back({{-5, y, z}, {1, 0.1f, z / 9}, i % 3 == 0 ? 4.7f : 9.1f, 0});
+    const Row& row = floats.back();
+    doubles.push_back({{row.origin[0], row.origin[1], row.origin[2]},
+                       {row.direction[0], row.direction[1], row.direction[2]},
+                       row.t_max});
+  }
+  std::vector<mk::Hit> hits(doubles.size());
+  scene.cast(doubles, hits);
+  minkray_ray_arrays rays = {};
+  rays.size = sizeof rays;
+  rays.float_origins = floats[0].origin;
+  rays.float_directions = floats[0].direction;
+  rays.float_t_max = &floats[0].t_max;
+  rays.origin_stride = rays.direction_stride = rays.t_max_stride = sizeof(Row);
+  const std::vector<double> t = cast_arrays(scene, rays, floats.size());
+  std::size_t met = 0;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    EXPECT_EQ(t[i], hits[i].t);
+    met += hits[i].found();
+  }
+  EXPECT_GT(met, 1000u);
+  EXPECT_LT(met, 4000u);
+  // Each array is of one of the types; here a contiguous one of double ends the rays.
+  const std::vector<double> ends(floats.size(), 4.5);
+  rays.float_t_max = nullptr;
+  rays.t_max = ends.data();
+  rays.t_max_stride = 0;
+  const std::vector<double> shorter = cast_arrays(scene, rays, floats.size());
+  for (std::size_t i = 0; i < t.size(); ++i) EXPECT_EQ(shorter[i], t[i] <= 4.5 ? t[i] : infinity);
+  rays.float_t_max = &floats[0].t_max;
+  cast_arrays(scene, rays, 2, MINKRAY_WRONG_USE);
+  EXPECT_TRUE(has(minkray_last_error(), "rays.t_max, rays.float_t_max: must not both be given"));
+  rays.t_max = nullptr;
+  floats[1].direction[2] = std::numeric_limits<float>::quiet_NaN();
+  cast_arrays(scene, rays, 2, MINKRAY_WRONG_USE);
+  EXPECT_TRUE(has(minkray_last_error(), "rays[1].direction[2]: must be a finite number (got nan)"));
+}
+
+/// Options of zeros left everything out that did not touch.
+TEST(Defaults, a_distance_of_zero_in_options_of_near_pairs_is_the_default) {
+  mk::Scene scene;
+  const mk::Shape ball = mk::sphere(1);
+  scene.add(ball);
+  scene.add(ball, mk::translation({5, 0, 0}));
+  scene.add(ball, mk::translation({5, 2, 0}));
+  scene.commit();
+  minkray_near_options options = {};
+  options.size = sizeof options;
+  const double point[1][3] = {{0, 0, 4}};
+  minkray_scene_pair found = {};
+  ASSERT_EQ(minkray_scene_nearest(scene.handle(), point, 1, 1, &options, &found, nullptr),
+            MINKRAY_OK);
+  EXPECT_EQ(found.object_b, 0u);
+  EXPECT_EQ(found.distance.value, 3);
+  const minkray_shape shape = ball.handle();
+  const minkray_pose pose = {{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 4}}};
+  minkray_bodies body = {};
+  body.size = sizeof body;
+  body.shapes = &shape;
+  body.shape_count = 1;
+  body.poses = &pose.rows[0][0];
+  body.pose_count = 1;
+  ASSERT_EQ(minkray_scene_distance_to(scene.handle(), &body, 1, &options, &found, nullptr),
+            MINKRAY_OK);
+  EXPECT_EQ(found.object_b, 0u);
+  const auto count = [](void* user, const minkray_scene_pair*, size_t pairs) {
+    *static_cast<size_t*>(user) = pairs;
+    return 0;
+  };
+  size_t pairs = 7;
+  ASSERT_EQ(minkray_scene_distances(scene.handle(), nullptr, 0, &options, count, &pairs, nullptr),
+            MINKRAY_OK);
+  EXPECT_EQ(pairs, 1u);  // that touch
+  const std::uint32_t given[2] = {0, 1};
+  ASSERT_EQ(minkray_scene_distances(scene.handle(), given, 1, &options, count, &pairs, nullptr),
+            MINKRAY_OK);
+  EXPECT_EQ(pairs, 1u);
+  // In C++ the default is no zero, and a zero means pairs that touch.
+  const mk::Vec3 above = {0, 0, 4};
+  mk::NearOptions touching;
+  EXPECT_EQ(scene.nearest({&above, 1}, 1, touching).front().object_b, 0u);
+  touching.within = 0;
+  EXPECT_EQ(scene.nearest({&above, 1}, 1, touching).front().object_b, mk::no_object);
+  EXPECT_EQ(scene.distances(touching).size(), 1u);
 }
 
 TEST(Defaults, a_direction_of_zero_is_an_error_wherever_a_ray_is_given) {
@@ -103,7 +239,9 @@ TEST(Defaults, a_direction_of_zero_is_an_error_wherever_a_ray_is_given) {
   expect_error("minkray_scene_cast: rays[2047].direction: must not be zero",
                [&] { scene.cast(rays, hits); });
   const double zeros[3] = {0, 0, 0};
-  const minkray_ray_arrays arrays = {sizeof arrays, zeros, 0, zeros, 0, nullptr, 0};
+  minkray_ray_arrays arrays = {};
+  arrays.size = sizeof arrays;
+  arrays.origins = arrays.directions = zeros;
   minkray_hit_arrays found = {};
   found.size = sizeof found;
   EXPECT_EQ(minkray_scene_cast_arrays(scene.handle(), &arrays, 1, &found, nullptr),

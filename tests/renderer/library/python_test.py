@@ -7,6 +7,7 @@ import sys
 import tempfile
 import threading
 import time
+import tracemalloc
 import unittest
 
 import numpy as np
@@ -65,6 +66,40 @@ class Rays(unittest.TestCase):
         short = self.scene.cast_rays(self.rays, t_max=np.where(met, hits.t * 0.999, 10.0))
         self.assertFalse((short.t[met] == hits.t[met]).any())
         self.assertTrue((self.scene.cast_rays(self.rays, t_max=0.0).status != mk.HIT).all())
+
+    def test_of_floats_have_the_answers_of_the_same_numbers_in_double(self):
+        floats = self.rays.astype(np.float32)
+        doubles = floats.astype(np.float64)
+        ends = np.linspace(10, 30, 5000, dtype=np.float32)
+        padded = np.zeros((5000, 9), np.float32)
+        padded[:, 2:8] = floats
+        swapped = floats.astype(floats.dtype.newbyteorder())
+        for t_max in (None, 20.25, ends):
+            expected = self.scene.cast_rays(doubles, None if t_max is None else np.float64(t_max))
+            self.assertGreater((expected.status == mk.HIT).sum(), 500)
+            for rays in (floats, padded[:, 2:8], np.asfortranarray(floats), swapped):
+                found = self.scene.cast_rays(rays, t_max)
+                for name in vars(expected):
+                    np.testing.assert_array_equal(getattr(found, name), getattr(expected, name), name)
+        np.testing.assert_array_equal(self.scene.occluded(floats[::-1]), self.scene.occluded(doubles[::-1]))
+        np.testing.assert_array_equal(self.scene.certify(floats[:99], t_max=ends[:99]).t_hi,
+                                      self.scene.certify(doubles[:99], t_max=ends[:99]).t_hi)
+        np.testing.assert_array_equal(self.scene.all_hits(floats, ends).t, self.scene.all_hits(doubles, ends).t)
+        floats[7, 4] = np.nan
+        with self.assertRaisesRegex(mk.Error, r"Scene.cast_rays: rays\[7\].direction\[1\]: must be a finite"):
+            self.scene.cast_rays(floats)
+
+    def test_of_either_type_are_not_copied(self):
+        rays = np.tile(self.rays, (20, 1))
+        wide = np.zeros((len(rays), 9), np.float32)
+        wide[:, 2:8] = rays
+        for given in (rays, rays[::2], rays.astype(np.float32), wide[:, 2:8], wide[::3, 2:8]):
+            ends = np.full(len(given), 20, given.dtype)
+            tracemalloc.start()
+            self.scene.occluded(given, ends)
+            _, peak = tracemalloc.get_traced_memory()
+            tracemalloc.stop()
+            self.assertLess(peak, 4 * len(given) + 100000)  # a byte or two per ray are the answers
 
     def test_threads_of_python_ask_at_once(self):
         expected = self.scene.cast_rays(self.rays, threads=1).t

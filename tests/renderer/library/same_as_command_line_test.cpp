@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <minkray/minkray.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -82,6 +83,40 @@ TEST(Library, answers_what_the_command_line_answers) {
 
 TEST(Library, reads_files_of_version_two_as_the_command_line_does) {
   EXPECT_GT(compare_rays("cafe.json", {0, 0, 0.5}, 1), 500u);
+}
+
+/// A turning beam and a ball beside it. Bodies turn about the origin of their frame, which is the
+/// pose's translation; a transform within the shape does not move the frame.
+TEST(Library, turns_bodies_about_the_same_point_as_the_command_line) {
+  const mk::Shape ball = mk::sphere(0.5), beam = mk::box({3, 0.1, 0.1});
+  const mk::Pose at_ball = mk::translation({4, 2, 0}), at_beam = mk::translation({4, 0, 0});
+  const mk::Twist turn{{}, {0, 0, 0.5}};
+  const auto impact = [&](const std::string& pivot) {
+    const minkray::TemporaryFolder folder;
+    std::ofstream(folder / "query.jsonl")
+        << R"({"query": "impact", "t_max": 10, "a": {"type": "transform", "translate": [4, 2, 0],)"
+        << R"( "shape": {"type": "sphere", "radius": 0.5}}, "b": {"type": "transform",)"
+        << R"( "translate": [4, 0, 0], "shape": {"type": "box", "half_extents": [3, 0.1, 0.1]}},)"
+        << R"( "motion_b": {"turn": [0, 0, 0.5])" << pivot << "}}\n";
+    const minkray::ProgramOutcome outcome = minkray::run_minkray("cast " + folder / "query.jsonl");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return outcome.out;
+  };
+  const auto expect_same = [](const mk::Impact& found, const std::string& line) {
+    ASSERT_EQ(found.status, mk::impact);
+    EXPECT_TRUE(has(line, "\"status\":\"hit\""));
+    EXPECT_NEAR(found.t_lo, number_after(line, "t_lo"), 1e-8) << line;
+    EXPECT_NEAR(found.t_hi, number_after(line, "t_hi"), 1e-8) << line;
+    EXPECT_NEAR(found.point_b.x, number_after(line, "point_b"), 1e-7) << line;
+  };
+  const mk::Impact about_origin = mk::time_of_impact(mk::transformed(ball, at_ball), {}, {},
+                                                     mk::transformed(beam, at_beam), {}, turn, 10);
+  expect_same(about_origin, impact(""));
+  const mk::Impact about_middle = mk::time_of_impact(ball, at_ball, {}, beam, at_beam, turn, 10);
+  expect_same(about_middle, impact(R"(, "pivot": [4, 0, 0])"));
+  // The beam's side meets the ball where the distance of their middle lines is 0.6, at length 2.
+  EXPECT_NEAR(about_middle.t_hi, 2 * std::acos(0.3), 1e-8);
+  EXPECT_LT(about_origin.t_hi, 1);
 }
 
 }  // namespace

@@ -21,8 +21,9 @@ from .scene import Scene
 from .rays import camera, lidar, pinhole
 from .meshes import height_field, mesh, mesh_info
 from .shapes import *
+from . import shape_methods as _shape_methods
 from .shapes_of_shapes import difference, hull_of, rounded, scaled, sum, swept, transformed, translated
-from .pairs import (BEGINS_INSIDE, IMPACT, NO_IMPACT, OVERLAPPING, SEPARATED, TOUCHING, UNDECIDED,
+from .pairs import (BEGINS_INSIDE, IMPACT, IMPACT_UNDECIDED, NO_IMPACT, OVERLAPPING, SEPARATED, TOUCHING, UNDECIDED,
                     Distance, DistanceStatus, Impact, ImpactStatus, signed_distance, time_of_impact)
 from .many_pairs import (Distances, Impacts, Manifolds, manifolds, pair_memory, signed_distances,
                          times_of_impact)

@@ -14,7 +14,7 @@ from .shapes import *
 _Floats = npt.NDArray[np.float64]
 _Numbers = npt.NDArray[np.uint32]
 _Bools = npt.NDArray[np.bool_]
-_Codes = npt.NDArray[np.uint8]
+_Codes = Any  # an array of uint8, or a member of the enum for one result
 _Path = Union[str, "os.PathLike[str]"]
 _Geometry = Literal["visual", "collision", "all"]
 
@@ -50,6 +50,7 @@ UNDECIDED: DistanceStatus
 IMPACT: ImpactStatus
 NO_IMPACT: ImpactStatus
 BEGINS_INSIDE: ImpactStatus
+IMPACT_UNDECIDED: ImpactStatus
 
 _Shapes = Union[Shape, Sequence[Any], npt.NDArray[Any]]
 _Poses = Union[npt.ArrayLike, Sequence[Any], None]
@@ -74,7 +75,7 @@ class Hits:
     point: _Floats
     normal: _Floats
     object: _Numbers
-    status: npt.NDArray[np.uint8]
+    status: _Codes
     supports: npt.NDArray[np.int32]
     part: npt.NDArray[np.int32]
     jac_ray: _Floats
@@ -97,7 +98,7 @@ class AllHits:
     leaves: _Bools
     ray: npt.NDArray[np.int64]
     offsets: npt.NDArray[np.int64]
-    status: npt.NDArray[np.uint8]
+    status: _Codes
 
 class Proofs:
     holds: npt.NDArray[np.bool_]
@@ -312,7 +313,10 @@ class Distance:
     point_a: _Floats
     point_b: _Floats
     normal: _Floats
-    status: Any
+    status: _Codes
+    def __getitem__(self, key: Any) -> Distance: ...
+    def __iter__(self) -> Iterator[Distance]: ...
+    def __len__(self) -> int: ...
 
 class Impact:
     t_lo: Any
@@ -321,7 +325,10 @@ class Impact:
     point_a: _Floats
     point_b: _Floats
     normal: _Floats
-    status: Any
+    status: _Codes
+    def __getitem__(self, key: Any) -> Impact: ...
+    def __iter__(self) -> Iterator[Impact]: ...
+    def __len__(self) -> int: ...
 
 def signed_distance(a: _Shapes, pose_a: _Poses, b: _Shapes, pose_b: _Poses, tolerance: float = 1e-10) -> Distance: ...
 def time_of_impact(a: _Shapes, pose_a: _Poses, twist_a: Optional[npt.ArrayLike], b: _Shapes, pose_b: _Poses, twist_b: Optional[npt.ArrayLike], t_max: npt.ArrayLike = 1.0) -> Impact: ...

@@ -21,10 +21,14 @@ HIT, MISS, INSIDE, EXHAUSTED = Status
 
 
 class _Arrays:
-    """Arrays by name."""
+    """Arrays by name. The status of a single result is a member of `_statuses`."""
+
+    _statuses = None
 
     def __init__(self, fields):
         self.__dict__.update(fields)
+        if self._statuses is not None and np.ndim(self.status) == 0:
+            self.status = self._statuses(int(self.status))
 
     def _first(self):
         return next(iter(vars(self).values()))
@@ -42,8 +46,8 @@ class _Arrays:
     def __getitem__(self, key):
         """Selects rays by an index, a slice, a mask, or an array of indices."""
         shape = self._first().shape
-        return type(self)({name: values[key] if isinstance(values, np.ndarray)
-                           else _of_list(values, shape, key) for name, values in vars(self).items()})
+        return type(self)({name: _of_list(values, shape, key) if isinstance(values, list)
+                           else np.asarray(values)[key] for name, values in vars(self).items()})
 
     def __iter__(self):
         return (self[i] for i in range(len(self)))
@@ -105,6 +109,8 @@ class Hits(_Arrays):
         known by their support mapping only.
     """
 
+    _statuses = Status
+
     def __repr__(self):
         counts = np.bincount(np.ravel(self.status), minlength=4)
         return (f"<minkray.Hits of {np.shape(self.t)}: {counts[HIT]} hit, {counts[MISS]} missed, "
@@ -140,6 +146,8 @@ class AllHits:
 
     def __init__(self, fields):
         self.__dict__.update(fields)
+        if np.ndim(self.status) == 0:
+            self.status = Status(int(self.status))
 
     def __repr__(self):
         return f"<minkray.AllHits: {len(self.t)} hits of {len(self.offsets) - 1} rays>"

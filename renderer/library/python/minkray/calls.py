@@ -30,11 +30,25 @@ def _called(function, name, arguments, named):
     return None
 
 
+# Members of options in C, of which some are arguments in Python. Other names may be those of files.
+_OPTIONS = ("accelerations|at_most|bounces|budget|geometry|height|integrator|keyframe|margin|max_depth|meshes|"
+            "package_dirs|pose|samples|threads|times|tolerance|view|width|within")
+
+
+def without_options(text):
+    """A message of the C interface that names arguments instead of members of options."""
+    return re.sub(rf"(^|(?<=, ))options\.(?=({_OPTIONS})\b)", "", text)
+
+
 def _plain(text):
-    """A message of the C interface, without the names of the C function and of the kind of shape."""
-    text = re.sub(r"^minkray(_\w+|::[\w:]+): ", "", text)
-    text = re.sub(r"^\w+: /(?=\w)", "/", text)
-    return re.sub(r"(?m)^/(?=\w)", "", text).replace("options.", "")
+    """A message, without the names of the C function and of the kind of shape."""
+    found = re.match(r"minkray(_\w+|::[\w:]+): ", text)
+    if not found:
+        return text
+    text = text[found.end():]
+    if found[1] in ("_shape_make", "_shape_read", "_camera_rays"):  # whose arguments are JSON
+        text = re.sub(r"(?m)^\w+: /(?=\w)", "", text)
+    return without_options(text)
 
 
 def public(function: Function, name: Optional[str] = None) -> Function:
@@ -78,6 +92,13 @@ def shapes_of(values, argument="shapes"):
     return [shape_of(value, f"{argument}[{i}]") for i, value in enumerate(values)]
 
 
+def list_of(value, argument, of):
+    """A list of the values, which must not be a text."""
+    if isinstance(value, (str, bytes)) or not hasattr(value, "__iter__"):
+        raise Error(f"{argument}: must be a list of {of} (got {value!r})")
+    return list(value)
+
+
 def text_of(value, argument):
     """The value, which must be text without zero bytes."""
     if not isinstance(value, str):
@@ -113,8 +134,8 @@ def whole_number_of(value, argument, most=2**32 - 1):
     return number
 
 
-def array_of(value, argument, must_be="an array of numbers"):
-    """The value as an array of doubles, if it is one of plain numbers."""
+def array_of(value, argument, must_be="an array of numbers", keeps=(np.float64,)):
+    """The value as an array of doubles, or of another kept type, if it is one of plain numbers."""
     parts = value if isinstance(value, (list, tuple)) else (value,)
     if any(isinstance(part, np.ma.MaskedArray) for part in parts):
         raise Error(f"{argument}: must not be a masked array: fill it first")
@@ -126,7 +147,7 @@ def array_of(value, argument, must_be="an array of numbers"):
         raise Error(f"{argument}: must be {must_be} (got {type(value).__name__})") from None
     if array.dtype.kind not in "fiub":
         raise Error(f"{argument}: must be {must_be} (got values of {array.dtype})")
-    return array if array.dtype == np.float64 else array.astype(float)
+    return array if array.dtype in keeps else array.astype(float)
 
 
 def number_of(value, argument):
@@ -151,19 +172,46 @@ def vectors_of(value, argument, width, ndim=None):
 
 
 _LAST_ROW = np.array([0.0, 0, 0, 1])
-_IDENTITY = np.eye(4)[:3]
+_MATRIX, _QUATERNION, _MATRIX_4X4 = range(3)
+
+
+def poses_array(value, argument):
+    """Returns the poses as given, the number of axes of one pose, and their kind."""
+    if value is None:
+        return np.eye(4)[:3], 2, _MATRIX
+    if isinstance(value, (list, tuple)) and any(one is None for one in value):
+        value = [np.eye(4) if one is None else one for one in value]
+    array = array_of(value, argument, "a (4, 4) matrix, or x, y, z, qw, qx, qy, qz")
+    if array.ndim >= 2 and array.shape[-2:] == (4, 4):
+        return array, 2, _MATRIX_4X4
+    if array.ndim >= 2 and array.shape[-2:] == (3, 4):
+        return array, 2, _MATRIX
+    if array.ndim >= 1 and array.shape[-1] == 7:
+        return array, 1, _QUATERNION
+    raise Error(f"{argument}: must be a (4, 4) matrix, or one of the shape (3, 4), or x, y, z, qw, qx, qy, qz "
+                f"(got the shape {array.shape})")
+
+
+def _of_quaternions(array, argument):
+    """Matrices (..., 3, 4) of poses (..., 7)."""
+    array = vectors_of(array, argument, 7)
+    largest = np.abs(array[..., 3:]).max(-1, keepdims=True)
+    if not (largest > 0).all():
+        raise Error(f"{argument}: must have a quaternion that is not zero")
+    q = array[..., 3:] / largest
+    w, x, y, z = np.moveaxis(q / np.linalg.norm(q, axis=-1, keepdims=True), -1, 0)
+    rows = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w), array[..., 0]],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w), array[..., 1]],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y), array[..., 2]]]
+    return np.stack([np.stack(row, -1) for row in rows], -2)
 
 
 def poses_of(value, argument):
-    """Matrices (..., 3, 4) of one such as (..., 4, 4); the identity for None."""
-    if value is None:
-        return _IDENTITY
-    if isinstance(value, (list, tuple)) and any(one is None for one in value):
-        value = [np.eye(4) if one is None else one for one in value]
-    array = array_of(value, argument, "a (4, 4) matrix")
-    if array.ndim < 2 or array.shape[-2:] not in ((3, 4), (4, 4)):
-        raise Error(f"{argument}: must be a (4, 4) matrix (got the shape {array.shape})")
-    if array.shape[-2] == 4 and not (array[..., 3, :] == _LAST_ROW).all():
+    """Matrices (..., 3, 4) of poses of any kind; the identity for None."""
+    array, _, kind = poses_array(value, argument)
+    if kind == _QUATERNION:
+        return _of_quaternions(array, argument)
+    if kind == _MATRIX_4X4 and not (array[..., 3, :] == _LAST_ROW).all():
         raise Error(f"{argument}: the last row must be (0, 0, 0, 1)")
     return array[..., :3, :]
 
@@ -172,7 +220,7 @@ def pose_of(value, argument="pose"):
     """One such matrix, or None."""
     poses = None if value is None else poses_of(value, argument)
     if poses is not None and poses.ndim != 2:
-        raise Error(f"{argument}: must be a (4, 4) matrix (got the shape {np.shape(value)})")
+        raise Error(f"{argument}: must be one pose (got the shape {np.shape(value)})")
     return poses
 
 

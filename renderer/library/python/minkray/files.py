@@ -49,6 +49,13 @@ def write(file, points, **columns):
     >>> mk.write(file, np.zeros((2, 3)), object=[0, 1])
     """
     file = os.fsdecode(name_of(file))
+    try:
+        _write(file, points, columns)
+    except OSError as error:
+        raise Error(f"{file}: cannot be written: {error.strerror}") from None
+
+
+def _write(file, points, columns):
     points = array_of(points, "points")
     if points.ndim == 3 and not columns:
         return _write_picture(file, points)

@@ -7,7 +7,9 @@ import numpy as np
 
 from . import _minkray
 from .answers import _Arrays
-from .calls import Error, array_of, number_of, public, shapes_array, vectors_of, whole_number_of
+from .calls import (Error, array_of, number_of, poses_array, public, shapes_array, vectors_of,
+                    whole_number_of)
+from .pairs import DistanceStatus, ImpactStatus
 
 
 class Distances(_Arrays):
@@ -39,6 +41,8 @@ class Distances(_Arrays):
         for w; inf if unknown: on ridges, for meshes and some depths, and for w on surfaces of unknown
         curvature.
     """
+
+    _statuses = DistanceStatus
 
     def __repr__(self):
         if not self._has("value"):
@@ -72,6 +76,8 @@ class Impacts(_Arrays):
         also for two shapes without a radius: neither spheres, capsules nor rounded.
     """
 
+    _statuses = ImpactStatus
+
     def __repr__(self):
         if not self._has("t_lo") or not self._has("t_hi"):
             return self._names()
@@ -101,6 +107,8 @@ class Manifolds(_Arrays):
         A `DistanceStatus`.
     """
 
+    _statuses = DistanceStatus
+
     def __repr__(self):
         if not self._has("count"):
             return self._names()
@@ -119,26 +127,6 @@ _MANIFOLDS = {"count": ((), np.int32), "normal": ((3,), np.float64), "points": (
               "points_a": ((4, 3), np.float64), "points_b": ((4, 3), np.float64), "gaps": ((4,), np.float64),
               "value": ((), np.float64), "lower": ((), np.float64), "upper": ((), np.float64),
               "status": ((), np.uint8)}
-
-_MATRIX, _QUATERNION, _MATRIX_4X4 = range(3)
-
-
-def poses_array(value, argument):
-    """Returns the poses as given, their kind, and the number of axes of one pose."""
-    if value is None:
-        return np.eye(4)[:3], 2, _MATRIX
-    if isinstance(value, (list, tuple)) and any(one is None for one in value):
-        value = [np.eye(4) if one is None else one for one in value]
-    array = array_of(value, argument, "an array of poses")
-    if array.ndim >= 2 and array.shape[-2:] == (4, 4):
-        return array, 2, _MATRIX_4X4
-    if array.ndim >= 2 and array.shape[-2:] == (3, 4):
-        return array, 2, _MATRIX
-    if array.ndim >= 1 and array.shape[-1] == 7:
-        return array, 1, _QUATERNION
-    raise Error(f"{argument}: must be poses of the shape (N, 4, 4), (N, 3, 4) or (N, 7), such as "
-                f"(x, y, z, qw, qx, qy, qz), or one of them (got {array.shape})")
-
 
 class Together:
     """Arguments broadcast together by NumPy's rules."""

@@ -3,7 +3,7 @@
 import numpy as np
 
 from . import _minkray
-from .calls import Error, public, shape_of, vectors_of
+from .calls import Error, array_of, number_of, public, shape_of, vectors_of
 
 
 @public
@@ -81,14 +81,14 @@ def height_field(heights, size, bottom=None):
     >>> float(scene.cast_rays([0.5, 0, 9, 0, 0, -1]).t)
     8.5
     """
-    grid = np.ascontiguousarray(heights, dtype=np.float64)
+    grid = np.ascontiguousarray(array_of(heights, "heights"))
     if grid.ndim != 2:
         raise Error(f"heights: must be of shape (R, C) (got {grid.shape})")
-    sizes = np.asarray(size, dtype=np.float64)
+    sizes = array_of(size, "size", "two numbers")
     if sizes.shape != (2,):
         raise Error(f"size: must be two numbers (got shape {sizes.shape})")
     return _minkray.height_field(grid, float(sizes[0]), float(sizes[1]),
-                                 None if bottom is None else float(bottom))
+                                 None if bottom is None else number_of(bottom, "bottom"))
 
 
 @public

@@ -6,6 +6,7 @@ import math
 import numpy as np
 
 from . import _minkray
+from .answers import _Arrays
 from .calls import Error, array_of, number_of, poses_of, public, shapes_array, vectors_of
 
 
@@ -30,14 +31,11 @@ class ImpactStatus(enum.IntEnum):
 
 
 SEPARATED, TOUCHING, OVERLAPPING, UNDECIDED = DistanceStatus
-IMPACT, NO_IMPACT, BEGINS_INSIDE, _ = ImpactStatus
+IMPACT, NO_IMPACT, BEGINS_INSIDE, IMPACT_UNDECIDED = ImpactStatus
 
 
-class _Answer:
+class _Answer(_Arrays):
     """Fields by name."""
-
-    def __init__(self, fields):
-        self.__dict__.update(fields)
 
     def __repr__(self):
         fields = ", ".join(f"{name}={value!r}" for name, value in vars(self).items())
@@ -62,6 +60,8 @@ class Distance(_Answer):
         SEPARATED, TOUCHING, OVERLAPPING or UNDECIDED.
     """
 
+    _statuses = DistanceStatus
+
 
 class Impact(_Answer):
     """Time of impact of two moving shapes.
@@ -78,6 +78,8 @@ class Impact(_Answer):
     status : ImpactStatus or (...) array
         IMPACT, NO_IMPACT (proven), BEGINS_INSIDE or UNDECIDED.
     """
+
+    _statuses = ImpactStatus
 
 
 class _Pairs:
@@ -103,11 +105,10 @@ class _Pairs:
             array = np.broadcast_to(array, self.shape + tail)
         return array.ravel().tolist() if array.dtype == object else np.ascontiguousarray(array)
 
-    def answer(self, kind, status, fields):
+    def answer(self, kind, fields):
         """The fields in the arguments' shape; numbers for one pair."""
         if self.shape == ():
-            return kind({name: status(int(values[0])) if name == "status"
-                         else values[0] if values.ndim > 1 else float(values[0])
+            return kind({name: values[0] if values.ndim > 1 else float(values[0])
                          for name, values in fields.items()})
         return kind({name: values.reshape(self.shape + values.shape[1:]) for name, values in fields.items()})
 
@@ -140,7 +141,7 @@ def signed_distance(a, pose_a, b, pose_b, tolerance=1e-10):
     """
     pairs = _Pairs(a=(shapes_array(a, "a"), 0), pose_a=(poses_of(pose_a, "pose_a"), 2),
                    b=(shapes_array(b, "b"), 0), pose_b=(poses_of(pose_b, "pose_b"), 2))
-    return pairs.answer(Distance, DistanceStatus, _minkray.signed_distance(
+    return pairs.answer(Distance, _minkray.signed_distance(
         pairs["a"], pairs["pose_a"], pairs["b"], pairs["pose_b"], number_of(tolerance, "tolerance"),
         pairs.count))
 
@@ -173,6 +174,6 @@ def time_of_impact(a, pose_a, twist_a, b, pose_b, twist_b, t_max=1.0):
                    twist_a=(_twists(twist_a, "twist_a"), 1), b=(shapes_array(b, "b"), 0),
                    pose_b=(poses_of(pose_b, "pose_b"), 2), twist_b=(_twists(twist_b, "twist_b"), 1),
                    t_max=(array_of(t_max, "t_max", "a number"), 0))
-    return pairs.answer(Impact, ImpactStatus, _minkray.time_of_impact(
+    return pairs.answer(Impact, _minkray.time_of_impact(
         pairs["a"], pairs["pose_a"], pairs["twist_a"], pairs["b"], pairs["pose_b"], pairs["twist_b"],
         pairs["t_max"], pairs.count))

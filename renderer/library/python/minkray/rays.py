@@ -5,7 +5,7 @@ import json
 import numpy as np
 
 from . import _minkray
-from .calls import Error, name_of, pose_of, public, vectors_of, whole_number_of
+from .calls import Error, array_of, name_of, pose_of, public, vectors_of, whole_number_of
 
 
 @public
@@ -17,7 +17,7 @@ def pinhole(K, pose, width, height):
     K : (3, 3) array
         Camera matrix, in pixels; the frame is OpenCV's: x right, y down, z ahead. The upper left
         corner of the picture is at (0, 0), the centre of the first pixel at (0.5, 0.5).
-    pose : (4, 4) array or None
+    pose : (4, 4) or (7,) array or None
         Of the camera, in the world.
     width, height : int
         In pixels.
@@ -34,8 +34,10 @@ def pinhole(K, pose, width, height):
     >>> rays.shape
     (480, 640, 6)
     """
-    K = vectors_of(K, "K", 3, 2)
-    if K.shape != (3, 3) or K[0, 0] == 0 or K[1, 1] == 0:
+    K = array_of(K, "K", "a (3, 3) matrix")
+    if K.shape != (3, 3):
+        raise Error(f"K: must have the shape (3, 3) (got {K.shape})")
+    if vectors_of(K, "K", 3)[0, 0] == 0 or K[1, 1] == 0:
         raise Error(f"K: must be a (3, 3) matrix whose focal lengths are not zero (got {K.tolist()})")
     pose = np.eye(4) if pose is None else pose_of(pose)
     width, height = whole_number_of(width, "width"), whole_number_of(height, "height")
@@ -61,7 +63,7 @@ def camera(calibration, pose=None):
         ``fx, fy, cx, cy, width, height`` in pixels, and optionally ``model`` ("pinhole" or "fisheye"),
         ``k1`` to ``k6`` (fisheyes ``k4``), ``p1`` and ``p2``, as in OpenCV: the centre of the first
         pixel is at (0, 0).
-    pose : (4, 4) array, optional
+    pose : (4, 4) or (7,) array, optional
         Of the camera, in the world: x right, y down, z ahead.
 
     Returns
@@ -99,7 +101,7 @@ def lidar(pattern, pose=None):
         Or a spinning lidar: ``(channels, steps)`` or ``(channels, steps, lowest, highest)`` with
         elevations in degrees (default -15 and 15). Rays of a spinning lidar are ordered by channel,
         the highest first, then clockwise from behind: ``rays.reshape(channels, steps, 6)`` is an image.
-    pose : (4, 4) array, optional
+    pose : (4, 4) or (7,) array, optional
         Of the sensor, in the world; x is ahead, z the axis.
 
     Returns

@@ -97,10 +97,11 @@ class Robot:
     def _set_joints(self, values):
         names = self.joint_names
         if not hasattr(values, "items"):
-            values = list(values)
-            if len(values) != len(names):
+            given = list(values) if hasattr(values, "__iter__") else None
+            if given is None or len(given) != len(names):
                 raise Error(f"must be {len(names)} values, of {', '.join(names) or 'no joints'} "
-                            f"(got {len(values)})")
+                            f"(got {values!r})")
+            values = given
             values = dict(zip(names, values))
         unknown = [name for name in values.keys() if name not in names]
         if unknown:
@@ -115,7 +116,7 @@ class Robot:
 
         Parameters
         ----------
-        pose : (4, 4) array
+        pose : (4, 4) or (7,) array
             From the file's frame to the world.
         """
         self._group.set_pose(given_pose_of(pose))

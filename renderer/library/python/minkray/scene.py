@@ -6,7 +6,7 @@ import numpy as np
 
 from . import _minkray
 from .answers import NO_OBJECT, Clearance, Verdict
-from .calls import (Error, array_of, given_pose_of, name_of, number_of, pose_of, public, shape_of,
+from .calls import (Error, array_of, given_pose_of, list_of, name_of, number_of, pose_of, public, shape_of,
                     text_of, vectors_of, whole_number_of)
 from .many_pairs import threads_of
 from .robots import Robot, robot_of
@@ -52,7 +52,7 @@ class Scene(RaysOfScene, PairsOfScene):
         Parameters
         ----------
         shape : Shape
-        pose : (4, 4) array, optional
+        pose : (4, 4) or (7,) array, optional
             Any invertible map.
         name : str, optional
 
@@ -97,7 +97,7 @@ class Scene(RaysOfScene, PairsOfScene):
         Parameters
         ----------
         file : str or path
-        pose : (4, 4) array, optional
+        pose : (4, 4) or (7,) array, optional
             Of the file's contents.
         geometry : {'visual', 'collision', 'all'}
             Shapes of robots to use.
@@ -114,9 +114,8 @@ class Scene(RaysOfScene, PairsOfScene):
         -------
         Robot
         """
-        if isinstance(package_dirs, (str, bytes)):
-            raise Error("package_dirs: must be a list of folders (got one)")
-        folders = [name_of(folder, f"package_dirs[{i}]") for i, folder in enumerate(package_dirs)]
+        folders = [name_of(folder, f"package_dirs[{i}]")
+                   for i, folder in enumerate(list_of(package_dirs, "package_dirs", "folders"))]
         group = self._scene.add_file(name_of(file), pose_of(pose), text_of(geometry, "geometry"),
                                      text_of(keyframe, "keyframe"), folders, bool(skip_missing_meshes),
                                      text_of(meshes, "meshes"))
@@ -130,7 +129,7 @@ class Scene(RaysOfScene, PairsOfScene):
         Parameters
         ----------
         file : str or path
-        pose : (4, 4) array, optional
+        pose : (4, 4) or (7,) array, optional
             Of the file's contents.
 
         Returns
@@ -148,7 +147,7 @@ class Scene(RaysOfScene, PairsOfScene):
         Parameters
         ----------
         file : str or path
-        pose : (4, 4) array, optional
+        pose : (4, 4) or (7,) array, optional
             Of the file's contents.
         geometry : {'visual', 'collision', 'all'}
         package_dirs : list of str
@@ -170,7 +169,7 @@ class Scene(RaysOfScene, PairsOfScene):
         Parameters
         ----------
         file : str or path
-        pose : (4, 4) array, optional
+        pose : (4, 4) or (7,) array, optional
             Of the file's contents.
         geometry : {'visual', 'collision', 'all'}
         keyframe : str
@@ -192,7 +191,7 @@ class Scene(RaysOfScene, PairsOfScene):
         Parameters
         ----------
         file : str or path
-        pose : (4, 4) array, optional
+        pose : (4, 4) or (7,) array, optional
             Of the file's contents.
         geometry : {'visual', 'collision', 'all'}
         package_dirs : list of str
@@ -213,7 +212,7 @@ class Scene(RaysOfScene, PairsOfScene):
         Parameters
         ----------
         file : str or path
-        pose : (4, 4) array, optional
+        pose : (4, 4) or (7,) array, optional
             Of the file's contents.
 
         Returns
@@ -230,8 +229,8 @@ class Scene(RaysOfScene, PairsOfScene):
         ----------
         object : int
             Its number.
-        pose : (4, 4) array
-            From the shape's frame to the world; any invertible map.
+        pose : (4, 4) or (7,) array
+            From the shape's frame to the world: any invertible map, or x, y, z, qw, qx, qy, qz.
         """
         self._scene.set_pose(whole_number_of(object, "object"), given_pose_of(pose))
         self._changed()
@@ -337,6 +336,7 @@ class Scene(RaysOfScene, PairsOfScene):
                                             number_of(tolerance, "tolerance"), bool(only_obstacles),
                                             bool(jac), bool(jac_error), threads_of(threads)))
 
+    @public
     def verify(self, robot, path, rates=None, margin=0.0, tolerance=0.01, only_obstacles=False, threads=0,
                *, budget=4000, accelerations=None, proof=None, times=None):
         """Proves that a robot's motion is free of collisions at all times, or finds a collision.

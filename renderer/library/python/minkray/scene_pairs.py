@@ -6,9 +6,11 @@ import numpy as np
 
 from . import _minkray
 from .answers import _Arrays
-from .calls import Error, array_of, name_of, number_of, public, shapes_array, vectors_of, whole_number_of
-from .many_pairs import (Manifolds, Together, _rows_in_one_piece, poses_array, progress_of, threads_of,
-                         call_c, twists_array)
+from .calls import (Error, array_of, name_of, number_of, poses_array, public, shapes_array, vectors_of,
+                    whole_number_of, without_options)
+from .many_pairs import (Manifolds, Together, _rows_in_one_piece, progress_of, threads_of, call_c,
+                         twists_array)
+from .pairs import DistanceStatus, ImpactStatus
 from .robots import robot_of
 
 _DISTANCE = [("value", "f8"), ("lower", "f8"), ("upper", "f8"), ("point_a", "f8", 3), ("point_b", "f8", 3),
@@ -43,6 +45,8 @@ class ScenePairs(_Arrays):
         With ``jac_error=True``, as in `Distances`; inf for meshes, except above half-spaces.
     """
 
+    _statuses = DistanceStatus
+
     def __repr__(self):
         return f"<minkray.ScenePairs: {len(self)}>"
 
@@ -69,6 +73,8 @@ class Nearest(_Arrays):
         without an object.
     """
 
+    _statuses = DistanceStatus
+
     def __repr__(self):
         return f"<minkray.Nearest of {np.shape(self.object)}>"
 
@@ -91,6 +97,8 @@ class SceneImpacts(_Arrays):
         With ``jac_error=True``: bounds of the length of the error of `jac`, as in `Impacts`.
     """
 
+    _statuses = ImpactStatus
+
     def __repr__(self):
         return f"<minkray.SceneImpacts of {np.shape(self.t_lo)}: {int(np.isfinite(self.t_hi).sum())} touch>"
 
@@ -100,6 +108,8 @@ class Manifold(_Arrays):
 
     __doc__ += (" ``manifold[k]`` is that of point k alone; ``len(manifold)`` is `count`."
                 + Manifolds.__doc__[Manifolds.__doc__.index("\n\n"):].replace("(N,)", "").replace("(N, ", "("))
+
+    _statuses = DistanceStatus
 
     def __len__(self):
         return int(self.count)
@@ -194,7 +204,7 @@ def _call_c(call, *arguments):
         text = re.sub(r"^shapes\.(pose|twist)s", r"\1s", str(error))
         text = re.sub(r"^shapes\.shapes", "shape", text)
         text = re.sub(r"^object_a", "i", re.sub(r"^object_b", "j", text))
-        raise Error(re.sub(r"^options\.", "", text)) from None
+        raise Error(without_options(text)) from None
     return answer[0]
 
 

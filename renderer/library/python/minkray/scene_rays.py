@@ -6,7 +6,7 @@ import numpy as np
 
 from . import _minkray
 from .answers import EXHAUSTED, HIT, AllHits, Hits, Proofs
-from .calls import Error, array_of, public, text_of, whole_number_of
+from .calls import Error, array_of, list_of, public, text_of, whole_number_of
 from .many_pairs import threads_of
 from .rays import pinhole
 
@@ -15,16 +15,19 @@ def _public(function):
     return public(function, f"Scene.{function.__name__}")
 
 
+_KEPT = (np.float64, np.float32)  # types of rays that need no copy
+
+
 class RaysOfScene:
     """Casts at a `Scene`, and pictures."""
 
     @staticmethod
     def _rows(rays, t_max):
-        rays = array_of(rays, "rays")
+        rays = array_of(rays, "rays", keeps=_KEPT)
         if rays.ndim == 0 or rays.shape[-1] != 6:
             raise Error(f"rays: must have the shape (..., 6) (got {rays.shape})")
         if t_max is not None:
-            t_max = array_of(t_max, "t_max", "a number, or one per ray")
+            t_max = array_of(t_max, "t_max", "a number, or one per ray", _KEPT)
             try:
                 t_max = np.broadcast_to(t_max, rays.shape[:-1]).ravel() if t_max.ndim > 0 else t_max
             except ValueError:
@@ -45,7 +48,7 @@ class RaysOfScene:
         Parameters
         ----------
         rays : (N, 6) or (..., 6) array
-            Origin and direction (of any length except zero). Arrays of float64 are not copied.
+            Origin and direction (of any length except zero). Arrays of float64 and float32 are not copied.
         t_max : float or (...) array, optional
             Largest `t` of the ray. None: unlimited; 0: only the origin.
         threads : int
@@ -277,9 +280,7 @@ class RaysOfScene:
         def often(number, name):
             return 0 if number is None else whole_number_of(number, name, 1000) or -1
 
-        if isinstance(aovs, str):
-            raise Error(f"aovs: must be a list of names, such as [{aovs!r}]")
-        names = ["rgb", *(text_of(name, f"aovs[{i}]") for i, name in enumerate(aovs))]
+        names = ["rgb", *(text_of(name, f"aovs[{i}]") for i, name in enumerate(list_of(aovs, "aovs", "names")))]
         return _minkray.render(self._ready(), json.dumps(view, default=plain) if view else "",
                                whole_number_of(width, "width"), whole_number_of(height, "height"),
                                whole_number_of(spp, "spp"), whole_number_of(seed, "seed", 2**64 - 1),

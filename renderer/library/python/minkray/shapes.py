@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Callable, Mapping, Optional, Sequence
 
 from . import _minkray
-from .calls import Error, Shape, array_of, name_of, public, shapes_of, text_of, vectors_of
+from .calls import Error, Shape, array_of, name_of, number_of, public, shapes_of, text_of, vectors_of
 
 if TYPE_CHECKING:
     import numpy as np
@@ -15,9 +15,13 @@ __all__ = ["box", "capsule", "cone", "custom", "cut_cylinder", "cylinder", "disk
            "make", "point", "read_shape", "segment", "sphere", "superellipsoid", "tapered_capsule", "triangle"]
 
 
+_SINGLE = ("radius", "half_height", "exponent")  # parameters that are one number
+
+
 def _made(kind, shapes=None, **numbers):
-    return _minkray.make(kind, {name: array_of(value, name) for name, value in numbers.items()},
-                         shapes or {})
+    given = {name: number_of(value, name) if name in _SINGLE else array_of(value, name)
+             for name, value in numbers.items()}
+    return _minkray.make(kind, given, shapes or {})
 
 
 @public
@@ -362,41 +366,3 @@ def read_shape(json: str, folder: str = "") -> Shape:
     Shape
     """
     return _minkray.read_shape(text_of(json, "json"), name_of(folder, "folder"))
-
-
-def _init(self, *arguments, **named):
-    """Raises an Error: shapes are made by functions such as `minkray.box`."""
-    raise Error("Shape: must be made by functions such as minkray.box")
-
-
-def support(self, directions):
-    """Points of the shape furthest along directions.
-
-    Parameters
-    ----------
-    directions : (N, 3) array
-        Of any length.
-
-    Returns
-    -------
-    (N, 3) array
-    """
-    return self._support(vectors_of(directions, "directions", 3, 2))
-
-
-def bounds(self):
-    """Lower and upper corner of the bounding box, of shape (2, 3)."""
-    return self._bounds()
-
-
-def json(self):
-    """The shape as JSON, as in scene files."""
-    return self._json()
-
-
-setattr(Shape, "__init__", _init)
-setattr(Shape, "support", public(support, "Shape.support"))
-setattr(Shape, "bounds", public(bounds, "Shape.bounds"))
-setattr(Shape, "json", public(json, "Shape.json"))
-setattr(Shape, "__getstate__", public(getattr(Shape, "__getstate__"), "Shape.__getstate__"))
-del support, bounds, json
