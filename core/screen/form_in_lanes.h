@@ -107,28 +107,62 @@ struct PlanesCrossed {
   /// sums together have an error of less than 2^-21 of the size of near positions.
   [[gnu::always_inline]] void cross(const Vec3<W>& normal, const W& offset, const W& below,
                                     const Vec3<W>& s, const Vec3<W>& d, const W& E) {
-    const W slope = fma(normal.x(), d.x(), fma(normal.y(), d.y(), normal.z() * d.z()));
-    const W height = fma(normal.x(), s.x(), fma(normal.y(), s.y(), normal.z() * s.z()));
+    const W slope = product(normal, d);
     const Mask<W> enters = slope < W(0);
     const W size = W(1) / max(abs(slope), W(exact::least_component<W>));
-    const W inv = select(enters, -size, size);
+    const W inv = select(enters, -size, size), height = product(normal, s);
     const W outer = ((offset - height) + E) * inv, inner = ((below - height) - E) * inv;
     in_lo = max(in_lo, select(enters, outer, W(-infinity)));
     in_hi = max(in_hi, select(enters, inner, W(-infinity)));
     out_lo = min(out_lo, select(enters, W(infinity), inner));
     out_hi = min(out_hi, select(enters, W(infinity), outer));
   }
+  /// Same for a plane that all lines enter, or that all leave, at slopes that are not small.
+  template <bool enters>
+  [[gnu::always_inline]] void cross_alike(const Vec3<W>& normal, const W& offset, const W& below,
+                                          const Vec3<W>& s, const Vec3<W>& d, const W& E) {
+    const W inv = W(1) / product(normal, d), height = product(normal, s);
+    const W outer = ((offset - height) + E) * inv, inner = ((below - height) - E) * inv;
+    if constexpr (enters) {
+      in_lo = max(in_lo, outer);
+      in_hi = max(in_hi, inner);
+    } else {
+      out_lo = min(out_lo, inner);
+      out_hi = min(out_hi, outer);
+    }
+  }
+  [[gnu::always_inline]] static W product(const Vec3<W>& a, const Vec3<W>& b) {
+    return fma(a.x(), b.x(), fma(a.y(), b.y(), a.z() * b.z()));
+  }
+
+  /// The lines' entry, in open lanes.
+  exact::Entry<W> entry(const Mask<W>& open) const {
+    exact::Entry<W> entry;
+    entry.miss = open & (in_lo > out_hi);
+    entry.hit = open & (in_hi <= out_lo);
+    entry.t = (in_lo + in_hi) * W(0.5f);
+    entry.e = (in_hi - in_lo) * W(0.5f);
+    return entry;
+  }
 };
+
+/// Calls work(normal, offset, below) for a plane, the same in all lanes.
+template <class Work>
+[[gnu::always_inline]] inline void with_plane(const ScreenPlanes& planes, std::size_t i,
+                                              const Work& work) {
+  const float* const at = planes.row(i / screen_lanes) + i % screen_lanes;
+  const auto number = [&](std::size_t k) { return W(at[k * screen_lanes]); };
+  work(Vec3<W>(number(0), number(1), number(2)), number(3), number(4));
+}
 
 /// Crosses all planes with one line per lane.
 [[gnu::always_inline]] inline PlanesCrossed cross_with_lines(const ScreenPlanes& planes,
                                                              const exact::Line<W>& line) {
   PlanesCrossed crossed;
-  for (std::size_t i = 0; i < planes.count; ++i) {
-    const float* const at = planes.row(i / screen_lanes) + i % screen_lanes;
-    const auto number = [&](std::size_t k) { return W(at[k * screen_lanes]); };
-    crossed.cross({number(0), number(1), number(2)}, number(3), number(4), line.s, line.d, line.E);
-  }
+  for (std::size_t i = 0; i < planes.count; ++i)
+    with_plane(planes, i, [&](const Vec3<W>& normal, const W& offset, const W& below) {
+      crossed.cross(normal, offset, below, line.s, line.d, line.E);
+    });
   return crossed;
 }
 
@@ -169,12 +203,7 @@ constexpr int few_lines = 4;
   const PlanesCrossed crossed = __builtin_popcount(lanes) <= few_lines
                                     ? cross_with_planes(*form.planes, line, lanes)
                                     : cross_with_lines(*form.planes, line);
-  exact::Entry<W> entry;
-  entry.miss = open & (crossed.in_lo > crossed.out_hi);
-  entry.hit = open & (crossed.in_hi <= crossed.out_lo);
-  entry.t = (crossed.in_lo + crossed.in_hi) * W(0.5f);
-  entry.e = (crossed.in_hi - crossed.in_lo) * W(0.5f);
-  return entry;
+  return crossed.entry(open);
 }
 
 template <class F>

@@ -53,12 +53,10 @@ ScreenForm screen_form(const exact::Form& form, const Vec3<double>& centre) {
   return screen;
 }
 
-/// Limit of planes: larger polytopes are screened by their box.
-constexpr std::size_t most_planes = 128;
-
 std::shared_ptr<const ScreenPlanes> planes_of(const exact::Polytope& polytope) {
   const exact::PolytopeTables& of = polytope.tables();
-  if (of.rounded_by > 0 || polytope.planes() > most_planes || polytope.planes() < 4) return {};
+  if (of.rounded_by > 0 || polytope.planes() > ScreenPlanes::most || polytope.planes() < 4)
+    return {};
   constexpr float infinity = std::numeric_limits<float>::infinity();
   auto planes = std::make_shared<ScreenPlanes>();
   planes->count = polytope.planes();

@@ -41,6 +41,7 @@ struct alignas(64) ScreenForm {
 /// the face may be below the plane. The last row repeats its last plane.
 struct ScreenPlanes {
   static constexpr std::size_t numbers = 5;
+  static constexpr std::size_t most = 128;  ///< polytopes with more are screened by their box
   std::vector<float> rows;
   std::size_t count = 0;  ///< number of planes
 

@@ -3,6 +3,8 @@
 // why).
 #include "core/world/ray_block.h"
 
+#include <cstring>
+
 #include "core/query/tolerances.h"
 #include "core/screen/form_in_lanes.h"
 #include "core/world/block_of_rays.h"
@@ -16,6 +18,8 @@ namespace {
 struct Seen {
   W map[3][3], near[3], d[3];
   W k, E, share;
+  float wide;   ///< greatest length of map delta
+  float steep;  ///< a slope that is far above rounding
   bool is_bounded;
 };
 
@@ -60,6 +64,8 @@ void see(const Block& block, const InstancePlace& place, const ScreenForm& form,
   const float reach = 1.7321f * size * (reach_near + step);
   const float E = tolerance::screen_rounding * (reach + form.extent);
   seen.k = W(k);
+  seen.wide = size * wide * (1 + 0x1p-10f);
+  seen.steep = 0x1p-10f * std::sqrt(dd);
   seen.E = W(E);
   const float share = E / form.R;
   seen.share = W(share * share * 0x1p-4f);
@@ -67,13 +73,68 @@ void see(const Block& block, const InstancePlace& place, const ScreenForm& form,
       least_d > 0 && E < tolerance::screen_largest_share * std::min(form.least, form.R);
 }
 
+/// Planes of a polytope by how a block's rays cross them.
+class PlanesByFacing {
+ public:
+  bool is_empty() const { return planes_ == nullptr; }
+
+  /// Rays have directions within `wide` of d. Their slopes at sorted planes are at least `steep`.
+  void sort(const ScreenPlanes& planes, const Vec3<W>& d, float wide, float steep) {
+    planes_ = &planes;
+    entered_count_ = left_count_ = other_count_ = 0;
+    const W margin(wide + steep);
+    for (std::size_t first = 0; first < planes.count; first += screen_lanes) {
+      const float* const row = planes.row(first / screen_lanes);
+      const auto number = [&](std::size_t k) { return W::load(row + k * screen_lanes); };
+      const W slope = PlanesCrossed::product({number(0), number(1), number(2)}, d);
+      const std::uint32_t used =
+          lane_bits(first_lanes(std::min<std::size_t>(planes.count - first, screen_lanes)));
+      const std::uint32_t entered = lane_bits(slope < -margin) & used,
+                          left = lane_bits(slope > margin) & used;
+      add(entered_, entered_count_, first, entered);
+      add(left_, left_count_, first, left);
+      add(others_, other_count_, first, used & ~(entered | left));
+    }
+  }
+
+  exact::Entry<W> enter(const exact::Line<W>& line, const Mask<W>& open) const {
+    PlanesCrossed crossed;
+    for (std::size_t i = 0; i < entered_count_; ++i)
+      with_plane(*planes_, entered_[i], [&](const Vec3<W>& n, const W& offset, const W& below) {
+        crossed.cross_alike<true>(n, offset, below, line.s, line.d, line.E);
+      });
+    for (std::size_t i = 0; i < left_count_; ++i)
+      with_plane(*planes_, left_[i], [&](const Vec3<W>& n, const W& offset, const W& below) {
+        crossed.cross_alike<false>(n, offset, below, line.s, line.d, line.E);
+      });
+    for (std::size_t i = 0; i < other_count_; ++i)
+      with_plane(*planes_, others_[i], [&](const Vec3<W>& n, const W& offset, const W& below) {
+        crossed.cross(n, offset, below, line.s, line.d, line.E);
+      });
+    return crossed.entry(open);
+  }
+
+ private:
+  using Numbers = std::array<std::uint8_t, ScreenPlanes::most + 8>;  // adding writes eight
+  static void add(Numbers& numbers, std::size_t& count, std::size_t first, std::uint32_t lanes) {
+    const std::uint64_t eight = lanes_of_set.lanes[lanes] + 0x0101010101010101u * first;
+    std::memcpy(numbers.data() + count, &eight, sizeof eight);
+    count += static_cast<std::size_t>(__builtin_popcount(lanes));
+  }
+
+  const ScreenPlanes* planes_ = nullptr;
+  Numbers entered_, left_, others_;
+  std::size_t entered_count_ = 0, left_count_ = 0, other_count_ = 0;
+};
+
 /// Returns lower and upper bounds of t for eight rays at the form; `box` has the parameters at
 /// which the rays enter the instance's box. Lanes that are not open miss. An infinite upper bound
 /// means that the hit is not certain.
 template <class F>
 [[gnu::always_inline]] inline void look(const Seen& seen, const FormInLanes& form,
-                                        const Vec3<W>& delta, const W& box, const Mask<W>& used,
-                                        W& first, W& last, Mask<W>& open) {
+                                        const PlanesByFacing& planes, const Vec3<W>& delta,
+                                        const W& box, const Mask<W>& used, W& first, W& last,
+                                        Mask<W>& open) {
   const W &x = delta.x(), &y = delta.y(), &z = delta.z();
   Vec3<W> p, d;
   for (int row = 0; row < 3; ++row) {
@@ -91,7 +152,8 @@ template <class F>
   line.parallel = seen.share * line.dd;
   const Mask<W> bounded = used & (line.dd > W(tolerance::screen_shortest_squared)) &
                           (line.dd < W(tolerance::screen_longest_squared));
-  const exact::Entry<W> entry = enter<F>(form, line, bounded);
+  const exact::Entry<W> entry =
+      planes.is_empty() ? enter<F>(form, line, bounded) : planes.enter(line, bounded);
   const auto slack_of = [&](const exact::Entry<W>& of) {
     return W(2) * of.e + W(tolerance::screen_digits) * (abs(seen.k) + abs(rest) + abs(of.t));
   };
@@ -176,6 +238,12 @@ template <class F>
 Looked look_at_instance(const Seen& seen, const Screen& screen, const MeetingRays& meeting,
                         std::uint32_t instance, BlockAnswer& answer) {
   const FormInLanes form(screen);
+  PlanesByFacing planes;
+  if constexpr (F::lanes == exact::Lanes::planes) {
+    constexpr std::uint32_t least_rays = 12;  // fewer rays do not repay the sorting
+    if (meeting.count >= least_rays)
+      planes.sort(*screen.planes, {seen.d[0], seen.d[1], seen.d[2]}, seen.wide, seen.steep);
+  }
   bool nearer = false;
   for (std::uint32_t at = 0; at < meeting.count; at += 8) {
     W first, last;
@@ -183,7 +251,7 @@ Looked look_at_instance(const Seen& seen, const Screen& screen, const MeetingRay
     const Vec3<W> delta(W::load(meeting.deltas[0] + at), W::load(meeting.deltas[1] + at),
                         W::load(meeting.deltas[2] + at));
     const Mask<W> used = first_lanes(std::min<std::size_t>(meeting.count - at, screen_lanes));
-    look<F>(seen, form, delta, W::load(meeting.boxes + at), used, first, last, open);
+    look<F>(seen, form, planes, delta, W::load(meeting.boxes + at), used, first, last, open);
     const W limit = W::load(meeting.limits + at), lo = W::load(meeting.los + at);
     open &= first <= limit;
     const std::uint32_t open_bits = lane_bits(open);
