@@ -8,7 +8,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "tests/support/source_files.h"
+#include "tests/support/temporary_folder.h"
 
 #if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
 #include <malloc.h>
@@ -28,7 +28,7 @@ std::size_t bytes_in_use() {
 
 /// A hull of 64 points took several kilobytes in each object of a file.
 TEST(SceneMemory, objects_of_files_with_equal_shapes_share_their_points) {
-  constexpr int count = 3000;
+  constexpr int count = 200;
   std::ostringstream points;
   for (int i = 0; i < 64; ++i) {
     const double z = 1 - (2 * i + 1) / 64.0, r = std::sqrt(1 - z * z), angle = 2.4 * i;
