@@ -157,7 +157,7 @@ class Mistakes(unittest.TestCase):
                 (r"^signed_distances: pose_a\[4\]\[1\]\[2\]: must be a finite", lambda: mk.signed_distances(ball, bad, ball, None)),
                 (r"^signed_distances: pose_b\[0\]: must be rigid", lambda: mk.signed_distances(ball, None, ball, np.diag([2.0, 1, 1, 1]))),
                 (r"^manifolds: pose_b\[2\]: .*quaternion", lambda: mk.manifolds(ball, None, ball, long)),
-                (r"^signed_distances: pose_a: must be a (4, 4)", lambda: mk.signed_distances(ball, np.eye(3), ball, None)),
+                (r"^signed_distances: pose_a: must be a .4, 4. matrix", lambda: mk.signed_distances(ball, np.eye(3), ball, None)),
                 (r"^signed_distances: pose_a\[0\]: the last row", lambda: mk.signed_distances(ball, np.ones((4, 4)), ball, None)),
                 (r"^signed_distances: .*same length", lambda: mk.signed_distances(ball, nine, ball, nine[:4])),
                 (r"^signed_distances: .*same length", lambda: mk.signed_distances([ball] * 3, nine, ball, None)),

@@ -89,7 +89,7 @@ class Pictures(unittest.TestCase):
         lit = scene.render(view, spp=1, width=16, height=16, lights=sun, background=[0, 0, 0])["rgb"]
         self.assertGreater(lit[8, 8].min(), 0.05)
         self.assertEqual(lit[0, 0].max(), 0)
-        for camera, text in ({"position": [0, 0, 0]}, "/camera/look_at"), ({**view, "fov": 1}, "fov"):
+        for camera, text in ({"position": [0, 0, 0]}, "camera/look_at"), ({**view, "fov": 1}, "fov"):
             with self.assertRaisesRegex(mk.Error, text):
                 scene.render(camera)
         with self.assertRaisesRegex(mk.Error, "must be one of rgb, Z"):

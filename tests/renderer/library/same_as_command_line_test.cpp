@@ -85,7 +85,7 @@ TEST(Library, reads_files_of_version_two_as_the_command_line_does) {
   EXPECT_GT(compare_rays("cafe.json", {0, 0, 0.5}, 1), 500u);
 }
 
-/// A turning beam and a ball beside it. Bodies turn about the origin of their frame, which is the
+/// A turning beam and a ball. Bodies turn about the origin of their frame, which is the
 /// pose's translation; a transform within the shape does not move the frame.
 TEST(Library, turns_bodies_about_the_same_point_as_the_command_line) {
   const mk::Shape ball = mk::sphere(0.5), beam = mk::box({3, 0.1, 0.1});

@@ -27,8 +27,9 @@ class _Arrays:
 
     def __init__(self, fields):
         self.__dict__.update(fields)
-        if self._statuses is not None and np.ndim(self.status) == 0:
-            self.status = self._statuses(int(self.status))
+        status = fields.get("status")  # may be left out of arrays to be filled
+        if self._statuses is not None and status is not None and np.ndim(status) == 0:
+            self.status = self._statuses(int(status))
 
     def _first(self):
         return next(iter(vars(self).values()))

@@ -48,7 +48,7 @@ def _plain(text):
     text = text[found.end():]
     if found[1] in ("_shape_make", "_shape_read", "_camera_rays"):  # whose arguments are JSON
         text = re.sub(r"(?m)^\w+: /(?=\w)", "", text)
-    return without_options(text)
+    return without_options(re.sub(r"(?m)^options\.view: /(?=\w)", "", text))
 
 
 def public(function: Function, name: Optional[str] = None) -> Function:

@@ -8,7 +8,7 @@ import numpy as np
 from . import _minkray
 from .answers import _Arrays
 from .calls import (Error, array_of, number_of, poses_array, public, shapes_array, vectors_of,
-                    whole_number_of)
+                    whole_number_of, without_options)
 from .pairs import DistanceStatus, ImpactStatus
 
 
@@ -228,7 +228,7 @@ def call_c(call, *arguments):
     try:
         call(*arguments)
     except Error as error:
-        text = re.sub(r"^minkray_\w+: ", "", str(error))
+        text = without_options(re.sub(r"^minkray_\w+: ", "", str(error)))
         text = re.sub(r"^([ab])\.(pose|twist)s", r"\2_\1", text)
         text = re.sub(r"^([ab])\.shapes", r"\1", text)
         text = re.sub(r"\.rows(?=\[)", "", text)

@@ -7,7 +7,7 @@ import numpy as np
 from . import _minkray
 from .answers import _Arrays
 from .calls import (Error, array_of, name_of, number_of, poses_array, public, shapes_array, vectors_of,
-                    whole_number_of, without_options)
+                    whole_number_of)
 from .many_pairs import (Manifolds, Together, _rows_in_one_piece, progress_of, threads_of, call_c,
                          twists_array)
 from .pairs import DistanceStatus, ImpactStatus
@@ -48,7 +48,7 @@ class ScenePairs(_Arrays):
     _statuses = DistanceStatus
 
     def __repr__(self):
-        return f"<minkray.ScenePairs: {len(self)}>"
+        return f"<minkray.ScenePairs: {np.size(self.value)}>"
 
 
 class Nearest(_Arrays):
@@ -204,7 +204,7 @@ def _call_c(call, *arguments):
         text = re.sub(r"^shapes\.(pose|twist)s", r"\1s", str(error))
         text = re.sub(r"^shapes\.shapes", "shape", text)
         text = re.sub(r"^object_a", "i", re.sub(r"^object_b", "j", text))
-        raise Error(without_options(text)) from None
+        raise Error(text) from None
     return answer[0]
 
 
