@@ -193,6 +193,25 @@ TEST(FirstContact, a_joint_beyond_its_limits_is_told_on_stderr) {
   EXPECT_FALSE(has(run_shell(render + "0.5").err, "limit"));
 }
 
+TEST(FirstContact, of_a_mesh_the_triangle_that_is_hit_is_traced) {
+  const TemporaryFolder folder;
+  const auto scene = [&](const char* objects) {
+    return folder.write("m.json",
+                        std::string(R"({"version": 2, "camera": {"position": [0.1, 0.2, 5],
+      "look_at": [0.1, 0.2, 0], "up": [0, 1, 0]}, "objects": [)") +
+                            objects + "]}");
+  };
+  const std::string mesh = scene(R"({"name": "m", "mesh": {"vertices": [[9, 9, 0], [9, 8, 0],
+      [8, 9, 0], [-1, -1, 0], [1, -1, 0], [0, 2, 0]], "triangles": [[0, 1, 2], [3, 4, 5]]}})");
+  const std::string trace = "trace '" + mesh + "' -r 3x3 --pixel ";
+  const std::string hit = run_minkray(trace + "1,1").out;
+  EXPECT_TRUE(has(hit, "object \"m\", triangle 1: hit, t = 5")) << hit;
+  EXPECT_TRUE(has(run_minkray(trace + "1,1 --json").out, "\"triangle\":1"));
+  EXPECT_TRUE(has(refusal(trace + "0,0", 3), "the ray hits no mesh"));
+  scene(R"({"shape": {"type": "plane"}})");
+  EXPECT_TRUE(has(refusal(trace + "1,1", 3), "has no shape with iterations"));
+}
+
 TEST(FirstContact, each_verb_that_takes_a_solver_says_which_there_are) {
   for (const std::string verb : {"render", "heatmap", "compare", "inspect", "cast", "trace"}) {
     // Lines are broken where they are too long.
