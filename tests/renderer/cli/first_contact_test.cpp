@@ -104,7 +104,7 @@ TEST(FirstContact, files_and_words_of_other_programs_are_told_with_ours) {
   };
   const std::tuple<std::string, std::string, std::string> files[] = {
       {"a.json", scene("cube", "lambert", "point"), "did you mean \"box\"?"},
-      {"a.json", scene("mesh", "lambert", "point"), "use \"hull\" with the mesh as its \"file\""},
+      {"a.json", scene("mesh", "lambert", "point"), "an object has a \"mesh\" instead"},
       {"a.json", scene("torus", "lambert", "point"), "a torus is not convex"},
       {"a.json", scene("sphere", "glass", "point"), "did you mean \"dielectric\"?"},
       {"a.json", scene("sphere", "metal", "point"), "did you mean \"conductor\"?"},
@@ -120,7 +120,7 @@ TEST(FirstContact, files_and_words_of_other_programs_are_told_with_ours) {
       {"a.json", "{\"version\": 1} # mine\n", "JSON has no comments"},
       {"a.png", "\x89PNG\r\n", "is a picture (PNG)"},
       {"a.blend", "BLENDER-v402", "is a Blender file: export it as glTF"},
-      {"a.stl", "solid a\n", "is a mesh (STL)"}};
+      {"a.stl", "solid a\n", "is a mesh (STL): use it as the \"file\" of a \"mesh\""}};
   for (const auto& [name, text, expected] : files) {
     const std::string message = refusal("info '" + folder.write(name, text) + "'", 3);
     EXPECT_TRUE(has(message, expected)) << text;
