@@ -146,8 +146,8 @@ TEST_F(MeshJson, tell_what_is_wrong) {
             "s.json: /objects/0/mesh/triangles/0: must be a list of three numbers of vertices (got "
             "a list of 2)");
   EXPECT_EQ(wrong(vertices + R"(, "triangles": [[0, 1, -2]]})"),
-            "s.json: /objects/0/mesh/triangles/0: must be a list of three numbers of vertices (got "
-            "a list of 3)");
+            "s.json: /objects/0/mesh/triangles/0/2: must be the number of a vertex, a whole number "
+            "from 0 on (got -2)");
 }
 
 }  // namespace
