@@ -106,6 +106,18 @@ TEST_F(ExactMeshes, are_those_of_collada) {
   expect_closed(read("t.dae"), 4);
 }
 
+TEST_F(ExactMeshes, keep_their_holes_where_a_scale_flattens_them) {
+  std::ofstream(folder_ / "ring.obj") << obj_of(testing::torus(24, 12));
+  const MeshLibrary::Answer answer = read("ring.obj", {1, 2, 0});
+  ASSERT_TRUE(answer.parts[0].surface);
+  const TriangleMesh& ring = *answer.parts[0].surface;
+  EXPECT_EQ(ring.bounds().upper.z(), 0);
+  PartCounts counts;
+  EXPECT_FALSE(closest_part(ring, {{0, 0.1, 2}, {0, 0, -1}}, 0, counts).found());
+  EXPECT_EQ(closest_part(ring, {{1, 0.1, 2}, {0, 0, -1}}, 0, counts).t, 2);
+  EXPECT_FALSE(read("ring.obj", {1, 0, 0}).parts[0].surface);  // no triangle has area
+}
+
 TEST_F(ExactMeshes, stand_in_scenes_of_robots) {
   write_stl(folder_ / "ring.stl", testing::torus(24, 12));
   std::ofstream(folder_ / "r.urdf") << R"(<robot name="r"><link name="a">
