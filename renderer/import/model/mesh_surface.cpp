@@ -28,7 +28,7 @@ PartTriangles triangles_within(const MeshParts& mesh, const std::vector<std::uin
 
 namespace {
 
-/// Of a mesh that is flattened along an axis, normals are along this axis.
+/// Scale of normals, up to length. A mesh that is flattened along an axis has normals along it.
 Vec3<double> scale_of_normals(const Vec3<double>& scale) {
   if ((scale.array() != 0).all()) return scale.cwiseInverse();
   return scale.unaryExpr([](double s) { return s == 0 ? 1.0 : 0.0; });
