@@ -13,7 +13,7 @@ namespace minkray {
 namespace {
 
 /// Limit of pairs of parts whose points are collected: the bodies may cross in any number.
-constexpr std::size_t most_pairs = 512;
+constexpr std::size_t most_pairs = 256;
 
 /// Contact points of two parts that are near.
 struct PartContact {

@@ -5,6 +5,8 @@
 #include <memory>
 #include <optional>
 
+#include "core/derived/triangle_of.h"
+#include "core/world/posed_mesh.h"
 #include "renderer/arguments/choices.h"
 #include "renderer/arguments/image_arguments.h"
 #include "renderer/arguments/import_arguments.h"
@@ -61,7 +63,8 @@ std::size_t choose(const std::vector<PreparedShape>& shapes, const Scene& scene,
     }
   }
   if (!name.empty())
-    throw WrongUsage("trace: the scene has no object \"" + name + "\" that is a shape");
+    throw WrongUsage("trace: the scene has no object \"" + name +
+                     "\" that is a shape, or a mesh that the ray hits");
   return nearest < shapes.size() ? nearest : hardest;
 }
 
@@ -86,6 +89,7 @@ void trace(const TraceVerbOptions& options) {
   cast.solver = kind_named(solver_descriptions, options.solver);
   std::vector<PreparedShape> shapes;
   std::vector<std::size_t> objects;  // number of each shape's object
+  std::vector<std::uint32_t> parts;  // number of the triangle, if the object is a mesh
   const std::size_t count = instance_count(scene);
   if (count > most_traced)
     throw BadInput(options.scene + ": has " + std::to_string(count) + " objects, trace takes " +
@@ -93,12 +97,26 @@ void trace(const TraceVerbOptions& options) {
   shapes.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const Object object = instance_object(scene, i);
-    if (!object.has_shape()) continue;  // has a closed form, and no iterations to show
+    Shape shape = object.shape;
+    std::uint32_t part = no_part;
+    if (object.mesh) {  // of a mesh, the triangle that the ray hits
+      PartCounts counts;
+      const double end = std::numeric_limits<double>::infinity();
+      part = cast_ray(PosedMesh(0, object.mesh, object.pose), ray, end, false, 0, counts).part;
+      if (part == no_part) continue;
+      const TriangleMesh& mesh = *object.mesh;
+      shape = triangle_of(mesh.corner(part, 0), mesh.corner(part, 1), mesh.corner(part, 2));
+    } else if (!object.has_shape()) {
+      continue;  // has a closed form, and no iterations to show
+    }
     objects.push_back(i);
-    shapes.emplace_back(object.shape, object.pose);
+    parts.push_back(part);
+    shapes.emplace_back(shape, object.pose);
   }
   const std::size_t chosen = choose(shapes, scene, objects, ray, cast, options.object);
-  if (chosen == shapes.size()) throw BadInput(options.scene + ": has no objects");
+  if (chosen == shapes.size())
+    throw BadInput(options.scene +
+                   ": has no shape with iterations (planes have none), and the ray hits no mesh");
   const CastTrace result = trace_ray(shapes[chosen], ray, cast);
 
   if (options.svg) {
@@ -114,6 +132,7 @@ void trace(const TraceVerbOptions& options) {
               {"direction", point_json(ray.direction)},
               {"ball_centre", point_json(result.ball.centre)},
               {"status", name_of(result.result.status)}};
+    if (parts[chosen] != no_part) json["triangle"] = parts[chosen];
     if (found) json["t"] = number_json(t);
     json["normal"] = point_json(result.result.normal);
     json["iterations"] = result.result.iterations;
@@ -123,10 +142,11 @@ void trace(const TraceVerbOptions& options) {
     return;
   }
   if (!found && options.object.empty())
-    std::cout << "the ray hits no shape with iterations (planes and meshes have none); showing the "
-                 "miss with most iterations:\n";
-  std::cout << "object \"" << instance_object(scene, objects[chosen]).name
-            << "\": " << name_of(result.result.status);
+    std::cout << "the ray hits no shape with iterations (planes have none); showing the miss with "
+                 "most iterations:\n";
+  std::cout << "object \"" << instance_object(scene, objects[chosen]).name << '"';
+  if (parts[chosen] != no_part) std::cout << ", triangle " << parts[chosen];
+  std::cout << ": " << name_of(result.result.status);
   if (found) std::cout << ", t = " << number_json(t).dump();
   std::cout << ", " << result.result.iterations << " iterations, " << result.result.supports
             << " supports\n"

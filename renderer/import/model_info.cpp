@@ -11,7 +11,8 @@
 namespace minkray {
 namespace {
 
-/// Convex but for rounding: vertices lie no deeper below their hull than this, of its size.
+/// Convex but for rounding: distances of the hull and the mesh are at most this share of the size,
+/// and volumes differ by at most this share.
 constexpr double convex_enough = 1e-6;
 
 std::string line(std::string_view title, const std::string& value) {
@@ -47,9 +48,24 @@ Json json_of(const Counts& counts) {
 std::string surface_as_text(const MeshFacts& facts) {
   if (facts.triangles == 0) return "";
   std::string text = "; " + std::to_string(facts.triangles) + " triangles, ";
-  text += facts.open_edges == 0 ? "closed" : std::to_string(facts.open_edges) + " open edges";
+  text += facts.is_closed()       ? "closed"
+          : facts.open_edges == 0 ? "no area"
+                                  : std::to_string(facts.open_edges) + " open edges";
   if (facts.without_area > 0) text += ", " + std::to_string(facts.without_area) + " without area";
   if (facts.repeated > 0) text += ", " + std::to_string(facts.repeated) + " repeated";
+  return text;
+}
+
+/// "convex", or how much larger the hull is.
+std::string hull_as_text(const ModelMesh& mesh, const MeshFacts& facts) {
+  const double larger = std::max(facts.overshoot, facts.deepest);
+  const double share = mesh.diameter > 0 ? larger / mesh.diameter : 0;
+  if (share <= convex_enough && facts.missing_volume > convex_enough)
+    return "not convex: its hull has more volume";
+  if (share <= convex_enough) return facts.is_flat ? "flat" : "convex";
+  char text[100];
+  std::snprintf(text, sizeof text, "convex hull up to %.3g (%.2g %%) larger than the mesh", larger,
+                100 * share);
   return text;
 }
 
@@ -66,18 +82,11 @@ std::string meshes_as_text(const std::vector<ModelMesh>& meshes) {
   std::string text;
   for (const ModelMesh& mesh : meshes) {
     const MeshFacts facts = facts_of(mesh);
-    char depth[100];
-    const double share = mesh.diameter > 0 ? facts.deepest / mesh.diameter : 0;
-    if (share <= convex_enough)
-      std::snprintf(depth, sizeof depth, "convex");
-    else
-      std::snprintf(depth, sizeof depth, "convex hull up to %.3g (%.2g %%) larger than the mesh",
-                    facts.deepest, 100 * share);
     const std::size_t parts = mesh.parts.size();
     text += line("mesh", printable(mesh.file, 80) + ": " + std::to_string(mesh.vertices) +
                              " vertices, " + std::to_string(facts.hull_points) + " of " +
                              (parts > 1 ? std::to_string(parts) + " hulls" : "the hull") + "; " +
-                             depth + surface_as_text(facts));
+                             hull_as_text(mesh, facts) + surface_as_text(facts));
   }
   return text;
 }
@@ -95,7 +104,8 @@ Json meshes_as_json(const std::vector<ModelMesh>& meshes) {
     one["deepest_vertex"] = facts.deepest;
     if (facts.triangles > 0) {
       one["triangles"] = facts.triangles;
-      one["is_closed"] = facts.open_edges == 0;
+      one["hull_overshoot"] = facts.overshoot;
+      one["is_closed"] = facts.is_closed();
       one["open_edges"] = facts.open_edges;
       one["triangles_without_area"] = facts.without_area;
       one["repeated_triangles"] = facts.repeated;

@@ -223,7 +223,8 @@ Scene scene_of(Model& model, const ImportOptions& options, const std::vector<Joi
     object.material = materials.of(geom.rgba);
     object.look = look_of(geom, materials);
     // As mj_ray: what is transparent is met by no ray, unless what collides is to be seen.
-    if (geom.rgba[3] == 0 && options.geometry == GeometryChoice::all) object.visible_to = 0;
+    if (geom.alpha_for_rays.value_or(geom.rgba[3]) == 0 && options.geometry == GeometryChoice::all)
+      object.visible_to = 0;
     scene.objects.push_back(std::move(object));
     geom_of_object.push_back(i);
   }

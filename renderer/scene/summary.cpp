@@ -2,6 +2,7 @@
 #include "renderer/scene/summary.h"
 
 #include <algorithm>
+#include <set>
 #include <type_traits>
 
 #include "core/derived/shape_bounds.h"
@@ -78,12 +79,14 @@ SceneSummary summarise(const Scene& scene) {
   Counter counter;
   SceneSummary summary;
   std::size_t half_spaces = 0, meshes = 0;
+  std::set<const TriangleMesh*> counted;  // instances share meshes
   for (const Object& object : scene.objects) {
     if (object.half_space)
       ++half_spaces;
-    else if (object.mesh)
+    else if (object.mesh) {
       ++meshes;
-    else
+      if (counted.insert(object.mesh.get()).second) counter.bytes += object.mesh->bytes();
+    } else
       counter.add(object.shape, false);
     counter.bytes += sizeof(Object) + object.name.capacity();
     if (!object.half_space) summary.bounds.extend(bounds_of(object));

@@ -25,15 +25,18 @@ std::optional<std::vector<Corners>> read_corners(const Json& json, const JsonPat
   for (std::size_t i = 0; i < json.size(); ++i) {
     const Json& written = json[i];
     Corners corners = {};
-    bool is_good = written.is_array() && written.size() == 3;
-    for (std::size_t k = 0; k < 3 && is_good; ++k) {
-      is_good = written[k].is_number_unsigned() && written[k].get<std::uint64_t>() < most_items;
-      if (is_good) corners[k] = static_cast<std::uint32_t>(written[k].get<std::uint64_t>());
-    }
-    if (!is_good) {
+    if (!written.is_array() || written.size() != 3) {
       mistakes.add(path / i,
                    "must be a list of three numbers of vertices (" + found(written) + ")");
       return std::nullopt;
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!written[k].is_number_unsigned() || written[k].get<std::uint64_t>() >= most_items) {
+        mistakes.add(path / i / k, "must be the number of a vertex, a whole number from 0 on (" +
+                                       found(written[k]) + ")");
+        return std::nullopt;
+      }
+      corners[k] = static_cast<std::uint32_t>(written[k].get<std::uint64_t>());
     }
     triangles.push_back(corners);
   }

@@ -236,8 +236,8 @@ MeshLibrary::Answer MeshLibrary::add(const MeshParts& mesh, const Vec3<double>& 
       upper = upper.cwiseMax(vertex);
     }
     Part part;
-    const bool is_flat = (scale.array() == 0).any();
-    if (options_->keeps_triangles() && !is_flat) {
+    const bool has_area = (scale.array() == 0).count() < 2;
+    if (options_->keeps_triangles() && has_area) {
       MeshSurface surface = surface_of(vertices, std::move(triangles), scale);
       part.surface = std::move(surface.mesh);
       part.attributes = std::move(surface.attributes);

@@ -99,6 +99,12 @@ Rgba MjcfAssets::colour_of(const XmlElement& geom) const {
   return own == default_rgba && material != materials_.end() ? material->second : own;
 }
 
+double MjcfAssets::alpha_for_rays(const XmlElement& geom) const {
+  const auto material = materials_.find(geom.attribute_or("material"));
+  return (material != materials_.end() ? material->second
+                                       : read_rgba(geom).value_or(default_rgba))[3];
+}
+
 const MeshLibrary::Answer* MjcfAssets::mesh_of(const XmlElement& written, const XmlElement& e) {
   const std::string name = e.attribute_or("mesh");
   const auto found = mesh_assets_.find(name);

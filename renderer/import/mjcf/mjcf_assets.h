@@ -33,6 +33,8 @@ class MjcfAssets {
 
   /// The geom's own colour, if it has one, or its material's.
   Rgba colour_of(const XmlElement& geom) const;
+  /// Alpha of the geom's material if it has one, else the geom's own, as for mj_ray.
+  double alpha_for_rays(const XmlElement& geom) const;
 
   /// Adds the terrain that a geom names; `e` is the geom with its defaults.
   void add_height_field(const XmlElement& written, const XmlElement& e, ModelGeom geom);

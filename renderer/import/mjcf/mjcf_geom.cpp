@@ -14,6 +14,7 @@ void add_mjcf_geom(const XmlElement& written, const XmlElement& e, ModelGeom geo
                    const GeomSource& in) {
   geom.kind = e.attribute_or("type", "sphere");
   geom.rgba = in.assets.colour_of(e);
+  geom.alpha_for_rays = in.assets.alpha_for_rays(e);
   const double contype = in.files.number(e, "contype").value_or(1);
   const double conaffinity = in.files.number(e, "conaffinity").value_or(1);
   geom.collides = contype != 0 || conaffinity != 0;

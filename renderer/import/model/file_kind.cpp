@@ -31,14 +31,14 @@ constexpr Signature signatures[] = {
     {"#usda", "a USD file: export it as glTF"},
     {"Kaydara FBX", "an FBX file: export it as glTF"},
     {"ply\n", "a mesh (PLY)"},
-    {"solid ", "a mesh (STL): use it as the \"file\" of a hull in a scene"},
+    {"solid ", "a mesh (STL): use it as the \"file\" of a \"mesh\" in a scene"},
     {"%PDF", "a PDF document"},
 };
 
 /// Formats without a signature.
 constexpr Signature endings[] = {
-    {".obj", "a mesh (OBJ): use it as the \"file\" of a hull in a scene"},
-    {".stl", "a mesh (STL): use it as the \"file\" of a hull in a scene"},
+    {".obj", "a mesh (OBJ): use it as the \"file\" of a \"mesh\" in a scene"},
+    {".stl", "a mesh (STL): use it as the \"file\" of a \"mesh\" in a scene"},
     {".yaml", "a YAML file"},
     {".yml", "a YAML file"},
     {".py", "a Python program"},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parts/parts_distance.h"
 #include "renderer/import/model/plane_tree.h"
 
 namespace minkray {
@@ -41,6 +42,53 @@ double deepest_below(const std::vector<Vec3<double>>& vertices, const PointCloud
   return deepest;
 }
 
+/// Calls visit(point) for a grid of points on the facet, its middle among them.
+template <class Visit>
+void for_each_point(const FacetMesh::Facet& facet, double spacing, const Visit& visit) {
+  const Vec3<double> a = facet.corner(0), b = facet.corner(1) - a, c = facet.corner(2) - a;
+  visit(Vec3<double>(a + (b + c) / 3));
+  const double rows = std::ceil(b.norm() / spacing), columns = std::ceil(c.norm() / spacing);
+  for (double i = 0.5; i < rows; ++i)
+    for (double k = 0.5; k < columns && i / rows + k / columns <= 1; ++k)
+      visit(Vec3<double>(a + i / rows * b + k / columns * c));
+}
+
+double overshoot_of(const FacetMesh& hull, const TriangleMesh& mesh) {
+  constexpr double steps = 12;
+  const double spacing = (mesh.bounds().upper - mesh.bounds().lower).maxCoeff() / steps;
+  const ContactShape point{Shape(Point())};
+  double most = 0;
+  Affine<double> pose;
+  for (std::size_t i = 0; i < hull.size(); ++i)
+    for_each_point(hull[i], spacing, [&](const Vec3<double>& at) {
+      pose.translation = at;
+      most = std::max(most, signed_distance(mesh, {}, point, pose).value);
+    });
+  return most;
+}
+
+/// Volume that a closed surface of triangles encloses, relative to a point near it.
+template <class Corner>
+double volume_of(std::size_t triangles, const Vec3<double>& middle, const Corner& corner) {
+  double volume = 0;
+  for (std::size_t i = 0; i < triangles; ++i) {
+    const Vec3<double> a = corner(i, 0) - middle, b = corner(i, 1) - middle,
+                       c = corner(i, 2) - middle;
+    volume += a.dot(b.cross(c)) / 6;
+  }
+  return volume;
+}
+
+double missing_volume_of(const FacetMesh& hull, const TriangleMesh& mesh) {
+  const Vec3<double> middle = mesh.bounds().centre();
+  const double whole = volume_of(hull.size(), middle,
+                                 [&](std::size_t i, std::size_t k) { return hull[i].corner(k); });
+  const double own = volume_of(mesh.size(), middle, [&](std::size_t i, std::size_t k) {
+    return mesh.corner(static_cast<std::uint32_t>(i), k);
+  });
+  return whole > 0 ? std::abs(whole - std::abs(own)) / whole : 0;
+}
+
 std::vector<Vec3<double>> vertices_of(const TriangleMesh& mesh) {
   return {mesh.vertices().begin(), mesh.vertices().end()};
 }
@@ -73,7 +121,17 @@ MeshFacts facts_of(const ModelMesh& mesh) {
     facts.repeated += faults.repeated;
     facts.open_edges += faults.open_edges;
     const std::vector<Vec3<double>> vertices = vertices_of(*part.surface);
-    add_hull(vertices, PointCloud(vertices));
+    const PointCloud hull(vertices);
+    add_hull(vertices, hull);
+    const FacetMesh* const facets = hull.facets();
+    if (!facets) {
+      facts.is_flat = true;
+      continue;
+    }
+    facts.overshoot = std::max(facts.overshoot, overshoot_of(*facets, *part.surface));
+    if (faults.is_closed())
+      facts.missing_volume =
+          std::max(facts.missing_volume, missing_volume_of(*facets, *part.surface));
   }
   return facts;
 }

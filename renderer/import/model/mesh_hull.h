@@ -17,6 +17,13 @@ struct MeshFacts {
   std::size_t triangles = 0, without_area = 0, repeated = 0, open_edges = 0;
   std::size_t hull_points = 0;
   double deepest = 0;  ///< largest depth of a vertex below the hull's surface
+  /// Largest distance of a point of the hull's surface from the mesh: of a grid of points on each
+  /// facet.
+  double overshoot = 0;
+  /// Largest difference of the volumes of closed parts and their hulls, relative to the hull's.
+  double missing_volume = 0;
+  bool is_flat = false;  ///< a part has no volume
+  bool is_closed() const { return triangles > without_area && open_edges == 0; }
 };
 MeshFacts facts_of(const ModelMesh& mesh);
 

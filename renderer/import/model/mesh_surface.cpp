@@ -26,6 +26,16 @@ PartTriangles triangles_within(const MeshParts& mesh, const std::vector<std::uin
   return within;
 }
 
+namespace {
+
+/// Scale of normals, up to length. A mesh that is flattened along an axis has normals along it.
+Vec3<double> scale_of_normals(const Vec3<double>& scale) {
+  if ((scale.array() != 0).all()) return scale.cwiseInverse();
+  return scale.unaryExpr([](double s) { return s == 0 ? 1.0 : 0.0; });
+}
+
+}  // namespace
+
 MeshSurface surface_of(std::vector<Vec3<double>> vertices, PartTriangles triangles,
                        const Vec3<double>& scale) {
   weld(vertices, triangles.corners);
@@ -40,7 +50,7 @@ MeshSurface surface_of(std::vector<Vec3<double>> vertices, PartTriangles triangl
     attributes = attributes_of(attributes, kept);
   }
   if (scale != Vec3<double>::Constant(scale.x()) || scale.x() < 0)
-    map_normals(attributes, scale.cwiseInverse().asDiagonal());
+    map_normals(attributes, scale_of_normals(scale).asDiagonal());
   if (scale.prod() < 0) {
     for (Corners& corners : triangles.corners) std::swap(corners[1], corners[2]);
     swap_corners(attributes);

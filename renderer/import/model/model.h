@@ -71,6 +71,8 @@ struct ModelGeom {
   /// Materials by the attributes' numbers; null: all of it has the colour.
   std::shared_ptr<const std::vector<MeshMaterial>> materials = {};
   std::array<double, 4> rgba = {0.7, 0.7, 0.7, 1};
+  /// Alpha that decides if rays meet the geom; unset: that of rgba.
+  std::optional<double> alpha_for_rays = {};
   bool collides = true, is_seen = true;
 
   /// For rays; for contact.

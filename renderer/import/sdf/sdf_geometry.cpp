@@ -155,7 +155,8 @@ void SdfGeometry::add_shape(const XmlElement& shape, ModelGeom geom, Colouring c
   if (is_good) model_.geoms.push_back(std::move(geom));
 }
 
-/// White is the size's z above black, and the first row of the picture has the greatest y.
+/// The lightest pixel is the size's z above black, and the first row of the picture has the
+/// greatest y.
 void SdfGeometry::add_height_map(const XmlElement& shape, ModelGeom geom) {
   const std::string uri = sdf_text(shape, "uri");
   if (uri.empty()) return files_.wrong(shape, "uri: missing");
@@ -174,7 +175,9 @@ void SdfGeometry::add_height_map(const XmlElement& shape, ModelGeom geom) {
   }
   try {
     HeightGrid grid = read_height_picture(*file);
-    for (double& height : grid.heights) height *= size->z();
+    // As in Gazebo, the lightest pixel has the size's height.
+    const double lightest = std::ranges::max(grid.heights);
+    for (double& height : grid.heights) height *= size->z() / (lightest > 0 ? lightest : 1);
     geom.mesh = mesh_of({grid.heights, grid.rows, grid.columns, size->x(), size->y(), {}});
   } catch (const std::exception& error) {
     return files_.wrong(shape, printable(file->string(), 160) + ": " + what_of(error));

@@ -104,7 +104,7 @@ TEST(FirstContact, files_and_words_of_other_programs_are_told_with_ours) {
   };
   const std::tuple<std::string, std::string, std::string> files[] = {
       {"a.json", scene("cube", "lambert", "point"), "did you mean \"box\"?"},
-      {"a.json", scene("mesh", "lambert", "point"), "use \"hull\" with the mesh as its \"file\""},
+      {"a.json", scene("mesh", "lambert", "point"), "an object has a \"mesh\" instead"},
       {"a.json", scene("torus", "lambert", "point"), "a torus is not convex"},
       {"a.json", scene("sphere", "glass", "point"), "did you mean \"dielectric\"?"},
       {"a.json", scene("sphere", "metal", "point"), "did you mean \"conductor\"?"},
@@ -120,7 +120,7 @@ TEST(FirstContact, files_and_words_of_other_programs_are_told_with_ours) {
       {"a.json", "{\"version\": 1} # mine\n", "JSON has no comments"},
       {"a.png", "\x89PNG\r\n", "is a picture (PNG)"},
       {"a.blend", "BLENDER-v402", "is a Blender file: export it as glTF"},
-      {"a.stl", "solid a\n", "is a mesh (STL)"}};
+      {"a.stl", "solid a\n", "is a mesh (STL): use it as the \"file\" of a \"mesh\""}};
   for (const auto& [name, text, expected] : files) {
     const std::string message = refusal("info '" + folder.write(name, text) + "'", 3);
     EXPECT_TRUE(has(message, expected)) << text;
@@ -191,6 +191,25 @@ TEST(FirstContact, a_joint_beyond_its_limits_is_told_on_stderr) {
       "$MINKRAY render '" + robot + "' -r 8x6 -s 1 -o '" + folder / "a.png" + "' --joint j=";
   EXPECT_TRUE(has(run_shell(render + "9").err, "limit of the joint \"j\": at 9, outside -1 to 1"));
   EXPECT_FALSE(has(run_shell(render + "0.5").err, "limit"));
+}
+
+TEST(FirstContact, of_a_mesh_the_triangle_that_is_hit_is_traced) {
+  const TemporaryFolder folder;
+  const auto scene = [&](const char* objects) {
+    return folder.write("m.json",
+                        std::string(R"({"version": 2, "camera": {"position": [0.1, 0.2, 5],
+      "look_at": [0.1, 0.2, 0], "up": [0, 1, 0]}, "objects": [)") +
+                            objects + "]}");
+  };
+  const std::string mesh = scene(R"({"name": "m", "mesh": {"vertices": [[9, 9, 0], [9, 8, 0],
+      [8, 9, 0], [-1, -1, 0], [1, -1, 0], [0, 2, 0]], "triangles": [[0, 1, 2], [3, 4, 5]]}})");
+  const std::string trace = "trace '" + mesh + "' -r 3x3 --pixel ";
+  const std::string hit = run_minkray(trace + "1,1").out;
+  EXPECT_TRUE(has(hit, "object \"m\", triangle 1: hit, t = 5")) << hit;
+  EXPECT_TRUE(has(run_minkray(trace + "1,1 --json").out, "\"triangle\":1"));
+  EXPECT_TRUE(has(refusal(trace + "0,0", 3), "the ray hits no mesh"));
+  scene(R"({"shape": {"type": "plane"}})");
+  EXPECT_TRUE(has(refusal(trace + "1,1", 3), "has no shape with iterations"));
 }
 
 TEST(FirstContact, each_verb_that_takes_a_solver_says_which_there_are) {

@@ -8,7 +8,10 @@
 #include "core/mesh/mesh_ray.h"
 #include "renderer/import/import.h"
 #include "renderer/import/mesh/mesh_library.h"
+#include "renderer/import/model/mesh_hull.h"
+#include "renderer/import/model_info.h"
 #include "tests/support/meshes.h"
+#include "tests/support/messages.h"
 #include "tests/support/temporary_folder.h"
 
 namespace minkray {
@@ -76,7 +79,7 @@ TEST_F(ExactMeshes, are_those_of_obj_and_stl) {
   EXPECT_EQ(read("b.stl").parts[0].surface->vertices().size(), 8u);
   // A mirror turns triangles over, which are turned back.
   expect_closed(read("b.stl", {-1, 1, 1}), 12);
-  const MeshLibrary::Answer flat = read("b.stl", {1, 1, 0});
+  const MeshLibrary::Answer flat = read("b.stl", {1, 0, 0});
   EXPECT_FALSE(flat.parts[0].surface);
   EXPECT_TRUE(flat.parts[0].hull);
   EXPECT_NE(std::ranges::find(flat.notes, "has no triangles: its hull is used"), flat.notes.end());
@@ -104,6 +107,54 @@ TEST_F(ExactMeshes, are_those_of_collada) {
     <instance_geometry url="#g"/></node></visual_scene></library_visual_scenes>
     <scene><instance_visual_scene url="#w"/></scene></COLLADA>)";
   expect_closed(read("t.dae"), 4);
+}
+
+TEST_F(ExactMeshes, keep_their_holes_where_a_scale_flattens_them) {
+  std::ofstream(folder_ / "ring.obj") << obj_of(testing::torus(24, 12));
+  const MeshLibrary::Answer answer = read("ring.obj", {1, 2, 0});
+  ASSERT_TRUE(answer.parts[0].surface);
+  const TriangleMesh& ring = *answer.parts[0].surface;
+  EXPECT_EQ(ring.bounds().upper.z(), 0);
+  PartCounts counts;
+  EXPECT_FALSE(closest_part(ring, {{0, 0.1, 2}, {0, 0, -1}}, 0, counts).found());
+  EXPECT_EQ(closest_part(ring, {{1, 0.1, 2}, {0, 0, -1}}, 0, counts).t, 2);
+  EXPECT_FALSE(read("ring.obj", {1, 0, 0}).parts[0].surface);  // no triangle has area
+}
+
+TEST_F(ExactMeshes, are_convex_only_if_they_are_their_hulls) {
+  std::ofstream(folder_ / "block.obj") << obj_of(testing::block({1, 2, 3}));
+  std::ofstream(folder_ / "ring.obj") << obj_of(testing::torus(24, 12));
+  std::ofstream(folder_ / "two.obj") << "v 0 0 0\nv 1 0 0\nf 1 2\n";
+  // A notch along one side: all vertices lie on the hull.
+  std::ofstream(folder_ / "notch.obj")
+      << "v 0 0 0\nv 4 0 0\nv 4 1 0\nv 1 1 0\nv 0 4 0\n"
+         "v 0 0 1\nv 4 0 1\nv 4 1 1\nv 1 1 1\nv 0 4 1\n"
+         "f 1 4 3 2\nf 1 5 4\nf 6 7 8 9\nf 6 9 10\n"
+         "f 1 2 7 6\nf 2 3 8 7\nf 3 4 9 8\nf 4 5 10 9\nf 5 1 6 10\n";
+  const auto facts = [&](const std::string& file, std::string& text) {
+    MeshLibrary library(folder_.path(), options_);
+    EXPECT_EQ(library.parts_of(file, Vec3<double>(1, 1, 1)).complaint, "");
+    Model model;
+    library.hand_over(model);
+    text = meshes_as_text(model.meshes);
+    return facts_of(model.meshes.at(0));
+  };
+  std::string text;
+  EXPECT_LT(facts("block.obj", text).overshoot, 1e-12);
+  EXPECT_TRUE(has(text, "; convex; 12 triangles, closed")) << text;
+  // The lid over the hole is furthest in its middle.
+  const double of_lid = std::hypot(1, 0.4) - 0.4;
+  const MeshFacts ring = facts("ring.obj", text);
+  EXPECT_LE(ring.overshoot, of_lid + 0.01);
+  EXPECT_GE(ring.overshoot, of_lid - 0.2);
+  EXPECT_TRUE(has(text, "larger than the mesh; 576 triangles, closed")) << text;
+  // The middle of the slanted facet is (2, 2.5); the nearest points are in the notch.
+  const MeshFacts notch = facts("notch.obj", text);
+  EXPECT_GT(notch.overshoot, 0.5);
+  EXPECT_TRUE(notch.is_closed());
+  EXPECT_FALSE(has(text, "; convex;")) << text;
+  facts("two.obj", text);
+  EXPECT_FALSE(has(text, "closed")) << text;
 }
 
 TEST_F(ExactMeshes, stand_in_scenes_of_robots) {

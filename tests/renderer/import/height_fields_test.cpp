@@ -115,6 +115,24 @@ TEST_F(HeightFields, of_mjcf_are_pictures_files_or_numbers) {
   EXPECT_TRUE(has(message(R"(file="short.bin" size="1 1 1 1")"), "a float for each of 2 x 2"));
 }
 
+TEST_F(HeightFields, geoms_are_met_by_rays_by_the_alpha_of_their_material_if_they_have_one) {
+  const std::string file = folder_.write("a.xml", mjcf(R"(
+      <geom name="own" size="1" rgba="1 0 0 0"/>
+      <geom name="material" size="1" material="clear"/>
+      <geom name="own opaque" size="1" material="clear" rgba="1 0 0 1"/>
+      <geom name="own clear" size="1" material="opaque" rgba="1 0 0 0"/>
+      <geom name="plain" size="1"/>)",
+                                                       R"(<asset>
+      <material name="clear" rgba="1 1 1 0"/><material name="opaque" rgba="1 1 1 1"/></asset>)"));
+  ImportOptions options;
+  options.geometry = GeometryChoice::all;
+  const Scene scene = import_scene(file, options).scene;
+  ASSERT_EQ(scene.objects.size(), 5u);
+  const bool is_met[] = {false, false, false, true, true};  // as mj_ray of MuJoCo
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_EQ(scene.objects[i].visible_to != 0, is_met[i]) << scene.objects[i].name;
+}
+
 TEST_F(HeightFields, of_sdf_are_pictures) {
   const std::string file = folder_.write(
       "m.sdf", R"(<sdf version="1.7"><model name="m"><static>true</static><link name="l">
@@ -125,7 +143,7 @@ TEST_F(HeightFields, of_sdf_are_pictures) {
   const Bounds<double> box = PosedMesh(0, scene.objects[0].mesh, scene.objects[0].pose).bounds();
   EXPECT_NEAR((box.lower.head<2>() - Eigen::Vector2d(-4, -2)).norm(), 0, 1e-12);
   EXPECT_NEAR((box.upper.head<2>() - Eigen::Vector2d(6, 6)).norm(), 0, 1e-12);
-  EXPECT_LT(box.upper.z(), 3.5 + 1e-12);
+  EXPECT_NEAR(box.upper.z(), 3.5, 1e-12);  // the lightest pixel, which is not white
   EXPECT_GT(box.lower.z(), 0.5 - 1e-12);
 }
 

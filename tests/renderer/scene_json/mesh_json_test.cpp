@@ -55,6 +55,9 @@ TEST_F(MeshJson, are_read_of_files_once_and_scaled) {
   ASSERT_EQ(summary.kinds.size(), 1u);
   EXPECT_EQ(summary.kinds[0].name, "mesh");
   EXPECT_EQ(summary.bounds.upper.x(), 0.5);
+  // Both objects share the mesh.
+  EXPECT_GT(summary.bytes, object.mesh->bytes());
+  EXPECT_LT(summary.bytes, 2 * object.mesh->bytes() + 3 * sizeof(Object));
 }
 
 TEST_F(MeshJson, terrains_are_read_of_heights_and_pictures) {
@@ -143,8 +146,8 @@ TEST_F(MeshJson, tell_what_is_wrong) {
             "s.json: /objects/0/mesh/triangles/0: must be a list of three numbers of vertices (got "
             "a list of 2)");
   EXPECT_EQ(wrong(vertices + R"(, "triangles": [[0, 1, -2]]})"),
-            "s.json: /objects/0/mesh/triangles/0: must be a list of three numbers of vertices (got "
-            "a list of 3)");
+            "s.json: /objects/0/mesh/triangles/0/2: must be the number of a vertex, a whole number "
+            "from 0 on (got -2)");
 }
 
 }  // namespace
