@@ -19,8 +19,8 @@ void take(const CoresInWorld& cores, const Vec3<double>& middle, const CoreConta
 }
 
 /// Moves B away along the normal by a small part of the sizes, where the distance determines the
-/// normal. It is that of the contact if the given normal is; otherwise its error is less, by the
-/// factor of this distance and the surfaces' radii of curvature.
+/// normal. This normal has a smaller error than the given one, by the ratio of that distance to the
+/// surfaces' radii of curvature.
 bool settle_apart(const ContactShape& a, const Affine<double>& pose_a, const ContactShape& b,
                   const Affine<double>& pose_b, const Vec3<double>& middle, Impact& found) {
   constexpr double part = 1e-3;
@@ -39,10 +39,25 @@ bool settle_apart(const ContactShape& a, const Affine<double>& pose_a, const Con
   return true;
 }
 
+/// True for bodies of known kinds that do not turn, if both are polytopes or the times' bounds are
+/// close: the error of the normal is the square root of their gap.
+bool is_accurate(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
+                 const RigidMotion& motion_b, const Impact& found) {
+  constexpr double close = 1e-13;  // of the sizes
+  if (a.core().kind == CoreKind::other || b.core().kind == CoreKind::other) return false;
+  if (motion_a.angular_velocity != Vec3<double>::Zero() ||
+      motion_b.angular_velocity != Vec3<double>::Zero())
+    return false;
+  if (!is_curved(a.core()) && !is_curved(b.core())) return true;
+  const double speed = (motion_b.velocity - motion_a.velocity).norm();
+  return (found.t_hi - found.t_lo) * speed <= close * (a.ball_radius() + b.ball_radius());
+}
+
 }  // namespace
 
 void settle(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
             const RigidMotion& motion_b, Impact& found) {
+  if (is_accurate(a, motion_a, b, motion_b, found)) return;
   const Affine<double> pose_a = motion_a.at(found.t_lo), pose_b = motion_b.at(found.t_lo);
   const Vec3<double> middle = middle_in_world(a, pose_a);
   if (is_curved(a.core()) || is_curved(b.core())) {

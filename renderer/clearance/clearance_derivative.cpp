@@ -43,7 +43,7 @@ class Moment {
     return derivative;
   }
 
-  /// Where all nearest points of a pair on a ridge are; see contact_region().
+  /// Region of all nearest points of a pair on a ridge; see contact_region().
   ContactRegion region(const BodyPair& pair, const SignedDistance& found) const {
     const Affine<double> pose_a = pose(pair.a), pose_b = pose(pair.b);
     const ClearanceBody &a = bodies_[pair.a], &b = bodies_[pair.b];

@@ -179,12 +179,12 @@ class Derivatives(unittest.TestCase):
     def test_of_impacts_are_as_accurate_as_those_of_distances(self):
         # A point moves into a superellipsoid: the gauge's gradient is the normal.
         rng, errors = np.random.default_rng(0), []
-        for _ in range(300):
+        for _ in range(100):
             p, r = rng.choice([2.5, 3, 4, 6]), rng.uniform(0.4, 1.2, 3)
             origin = 4 * unit(rng.normal(size=3))
             v = -origin / 4 + rng.normal(size=3) * 0.03
             d = mk.times_of_impact(mk.superellipsoid(r, p), None, None, mk.point([0, 0, 0]), [*origin, 1, 0, 0, 0],
-                                   [*v, 0, 0, 0], 9, jac=True)
+                                   [*v, 0, 0, 0], 9, jac=True, threads=1)
             if d.status[0] != mk.IMPACT:
                 continue
             t = d.t_hi[0]
@@ -193,7 +193,7 @@ class Derivatives(unittest.TestCase):
                 n = p / r * np.abs(x / r) ** (p - 1) * np.sign(x)
                 t -= ((np.abs(x / r) ** p).sum() - 1) / (n @ v)
             errors.append(np.abs(-n / (n @ v) - d.jac_b[0, :3]).max() / max(1, np.linalg.norm(n / (n @ v))))
-        self.assertGreater(len(errors), 200)
+        self.assertGreater(len(errors), 60)
         self.assertLess(max(errors), 1e-6)
 
     def test_of_rays_at_the_border_of_a_mesh_are_not_unique(self):

@@ -197,12 +197,12 @@ class Scenes(unittest.TestCase):
 
     def test_are_told_of_and_stopped(self):
         rng = np.random.default_rng(3)
-        cone, at = mk.cone(0.5, 1), np.concatenate([rng.uniform(-2, 2, (3000, 3)), rng.normal(size=(3000, 4))], 1)
+        cone, at = mk.cone(0.5, 1), np.concatenate([rng.uniform(-2, 2, (300, 3)), rng.normal(size=(300, 4))], 1)
         scene = mk.Scene()
-        for pose in matrices(at[:400]):
+        for pose in matrices(at[:60]):
             scene.add(mk.ellipsoid([1, 0.6, 0.4]), pose)
         for work in (lambda told: scene.distances(within=9, threads=1, progress=told),
-                     lambda told: scene.distances([[0, 1]] * 50000, threads=1, jac=True, progress=told),
+                     lambda told: scene.distances([[0, 1]] * 3000, threads=1, jac=True, progress=told),
                      lambda told: scene.distance_to(cone, at, threads=1, progress=told),
                      lambda told: scene.nearest(np.tile(at[:, :3], (5, 1)), k=9, threads=1, progress=told),
                      lambda told: scene.time_of_impact(cone, at + [9, 0, 0, 0, 0, 0, 0], [-3, 0, 0, 0, 1, 0], 3, threads=1, progress=told)):
