@@ -149,7 +149,7 @@ TEST(SceneDerivativeErrors, of_nearest_objects) {
   const mk::ScenePairs two = scene.nearest(points, 2, options);
   EXPECT_LE(difference(two[0].by_a.velocity, 0.6, 0.8, 0), two.errors()[0].a.velocity);
   EXPECT_LT(two.errors()[0].a.velocity, 1e-13);
-  EXPECT_TRUE(std::isinf(two.errors()[1].a.velocity)) << "there is no second object";
+  EXPECT_TRUE(std::isnan(two.errors()[1].a.velocity)) << "there is no second object";
   const mk::Shape ball = mk::sphere(2);
   const mk::Pose pose = mk::translation({3, 4, 0});
   mk::ScenePair found;
