@@ -52,7 +52,7 @@ class Gatherer {
 
  private:
   std::array<CoreAndRadius, 2> cores_;  ///< a CoreAndRadius is a point unless it is set
-  int count_ = 0;
+  std::size_t count_ = 0;
   TwoFoldVec3<double> middle_;
   double radius_ = 0, loss_ = 0;
 };

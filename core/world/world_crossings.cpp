@@ -114,8 +114,9 @@ void World::all_hits(const WorldRay& ray, std::vector<WorldCrossing>& to,
   add_shapeless_crossings(ray, to, counts);
   auto on_instance = [&](std::uint32_t instance) {
     add_shape_crossings(ray, instance, to, counts);
-    const auto same = std::ranges::equal_range(repeated_, instance, {}, &RepeatedInstance::same_as);
-    for (const RepeatedInstance& one : same) add_shape_crossings(ray, one.number, to, counts);
+    auto one = std::ranges::lower_bound(repeated_, instance, {}, &RepeatedInstance::same_as);
+    for (; one != repeated_.end() && one->same_as == instance; ++one)
+      add_shape_crossings(ray, one->number, to, counts);
     return false;
   };
   counts.nodes += traverse(bvh_, SlabRay(ray.ray), on_instance, prefetching());
