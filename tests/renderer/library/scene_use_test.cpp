@@ -97,7 +97,8 @@ TEST(SceneUse, threads_that_change_and_ask_get_answers_or_errors) {
           std::this_thread::sleep_for(std::chrono::microseconds(200));  // let the others get on
         }
     });
-  while (changed < 200) {
+  while (changed < 200 || answered == 0) {
+    if (changed >= 200) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     bool is_done = false;
     try {
       scene.add(mk::sphere(0.2), mk::translation({0.0 + changed % 60, 0, 0}),
@@ -118,8 +119,7 @@ TEST(SceneUse, threads_that_change_and_ask_get_answers_or_errors) {
   }
   stop = true;
   for (std::thread& thread : askers) thread.join();
-  EXPECT_EQ(scene.size(), 250u);
-  EXPECT_GT(answered, 0);
+  EXPECT_EQ(scene.size(), 50u + static_cast<unsigned>(changed));
 }
 
 /// A box whose function may call back: a query of what it is part of came back for ever, until the
