@@ -99,18 +99,18 @@ class PlanesByFacing {
 
   exact::Entry<W> enter(const exact::Line<W>& line, const Mask<W>& open) const {
     PlanesCrossed crossed;
-    for (std::size_t i = 0; i < entered_count_; ++i)
-      with_plane(*planes_, entered_[i], [&](const Vec3<W>& n, const W& offset, const W& below) {
-        crossed.cross_alike<true>(n, offset, below, line.s, line.d, line.E);
-      });
-    for (std::size_t i = 0; i < left_count_; ++i)
-      with_plane(*planes_, left_[i], [&](const Vec3<W>& n, const W& offset, const W& below) {
-        crossed.cross_alike<false>(n, offset, below, line.s, line.d, line.E);
-      });
-    for (std::size_t i = 0; i < other_count_; ++i)
-      with_plane(*planes_, others_[i], [&](const Vec3<W>& n, const W& offset, const W& below) {
-        crossed.cross(n, offset, below, line.s, line.d, line.E);
-      });
+    const auto for_all = [&](const Numbers& numbers, std::size_t count, const auto& work) {
+      for (std::size_t i = 0; i < count; ++i) with_plane(*planes_, numbers[i], work);
+    };
+    for_all(entered_, entered_count_, [&](const Vec3<W>& n, const W& offset, const W& below) {
+      crossed.cross_alike<true>(n, offset, below, line.s, line.d, line.E);
+    });
+    for_all(left_, left_count_, [&](const Vec3<W>& n, const W& offset, const W& below) {
+      crossed.cross_alike<false>(n, offset, below, line.s, line.d, line.E);
+    });
+    for_all(others_, other_count_, [&](const Vec3<W>& n, const W& offset, const W& below) {
+      crossed.cross(n, offset, below, line.s, line.d, line.E);
+    });
     return crossed.entry(open);
   }
 
@@ -126,6 +126,17 @@ class PlanesByFacing {
   Numbers entered_, left_, others_;
   std::size_t entered_count_ = 0, left_count_ = 0, other_count_ = 0;
 };
+
+/// Uses the sorted planes of a polytope, if there are some.
+template <class F>
+[[gnu::always_inline]] inline exact::Entry<W> enter_by(const PlanesByFacing& planes,
+                                                       const FormInLanes& form,
+                                                       const exact::Line<W>& line,
+                                                       const Mask<W>& open) {
+  if constexpr (F::lanes == exact::Lanes::planes)
+    if (!planes.is_empty()) return planes.enter(line, open);
+  return enter<F>(form, line, open);
+}
 
 /// Returns lower and upper bounds of t for eight rays at the form; `box` has the parameters at
 /// which the rays enter the instance's box. Lanes that are not open miss. An infinite upper bound
@@ -152,8 +163,7 @@ template <class F>
   line.parallel = seen.share * line.dd;
   const Mask<W> bounded = used & (line.dd > W(tolerance::screen_shortest_squared)) &
                           (line.dd < W(tolerance::screen_longest_squared));
-  const exact::Entry<W> entry =
-      planes.is_empty() ? enter<F>(form, line, bounded) : planes.enter(line, bounded);
+  const exact::Entry<W> entry = enter_by<F>(planes, form, line, bounded);
   const auto slack_of = [&](const exact::Entry<W>& of) {
     return W(2) * of.e + W(tolerance::screen_digits) * (abs(seen.k) + abs(rest) + abs(of.t));
   };

@@ -16,6 +16,7 @@
 #include "renderer/library/handles/pair_answers.h"
 #include "renderer/library/handles/poses.h"
 #include "renderer/library/handles/scene_bodies.h"
+#include "renderer/library/handles/share_of_call.h"
 #include "renderer/library/handles/work_on_rays.h"
 
 namespace minkray {
@@ -173,34 +174,6 @@ std::map<std::string, std::vector<std::uint32_t>> objects_of_links(const HeldSce
   }
   return objects;
 }
-
-/// Runs parts of work that is the share from `first` to `last` of a call.
-class ShareOfCall {
- public:
-  ShareOfCall(const minkray_options* how, double first, double last)
-      : how_(how), first_(first), last_(last) {
-    if (!how) return;
-    shared_ = {sizeof shared_, how->threads, 0, nullptr, this};
-    if (how->progress) shared_.progress = &ShareOfCall::tell;
-  }
-  ShareOfCall(const ShareOfCall&) = delete;
-  ShareOfCall& operator=(const ShareOfCall&) = delete;
-
-  void run(std::size_t count, std::size_t part_size,
-           const std::function<void(std::size_t begin, std::size_t end)>& body) const {
-    work_on_parts(count, part_size, how_ ? &shared_ : nullptr, body);
-  }
-
- private:
-  static int tell(void* user, double done) {
-    const auto& self = *static_cast<const ShareOfCall*>(user);
-    return self.how_->progress(self.how_->user, self.first_ + done * (self.last_ - self.first_));
-  }
-
-  const minkray_options* how_;
-  double first_, last_;
-  minkray_options shared_ = {};
-};
 
 /// Calls body(i) for all, few at a time.
 void for_all(const HeldScene& held, std::size_t count, const minkray_options* how,

@@ -20,8 +20,8 @@ int& depth() {
   return running;
 }
 
-/// An exception that ends more than a query, such as SystemExit: thrown again by the call that it
-/// ends. Null if there is none. Guarded by the interpreter's lock.
+/// Exception that ends more than a query, such as SystemExit; null otherwise. The call that it ends
+/// throws it again. Only threads that hold the interpreter's lock may use this.
 py::error_already_set*& kept() {
   static py::error_already_set* error = nullptr;
   return error;

@@ -13,7 +13,7 @@ minkray::Shape custom(const py::function& support, const py::object& bounds);
 bool is_in_support();
 
 /// Sets Python's error to the exception that a support function raised to end more than its query,
-/// such as SystemExit; false if there is none.
+/// such as SystemExit. Returns false if no such exception was raised.
 bool restore_kept();
 
 }  // namespace minkray_python

@@ -193,16 +193,38 @@ double furthest_corner(const ContactManifold& contact, double x, double y) {
   return most;
 }
 
+/// A flat square of side 8 with cells x cells squares.
+MeshPointer flat_grid(std::uint32_t cells) {
+  testing::Surface grid;
+  const std::uint32_t across = cells + 1;
+  for (std::uint32_t i = 0; i < across; ++i)
+    for (std::uint32_t j = 0; j < across; ++j)
+      grid.vertices.emplace_back(8.0 * i / cells - 4, 8.0 * j / cells - 4, 0);
+  testing::add_squares(grid, across, across, false);
+  std::erase_if(grid.triangles, [across](const Corners& t) {  // those that join both ends of a row
+    return std::ranges::max(t) - std::ranges::min(t) > across + 1 || t[0] % across == across - 1;
+  });
+  return grid.shared();
+}
+
+// More parts are near than are tried; the outermost are among those.
+TEST(MeshPairs, of_fine_meshes_rest_on_their_corners) {
+  const MeshPointer flat = flat_grid(128);
+  const ContactShape box{Shape(Box{{1.5, 1.5, 0.5}})};
+  Affine<double> aside, on_top;
+  aside.translation = {-0.1, -0.05, 0};
+  for (const double above : {0.001, -0.001}) {
+    on_top.translation = {0, 0, 0.5 + above};
+    const ContactManifold contact = contact_manifold(*flat, aside, box, on_top);
+    ASSERT_EQ(contact.count, 4);
+    constexpr double cell = 8.0 / 128;
+    EXPECT_LT(furthest_corner(contact, 1.5, 1.5), cell);
+  }
+}
+
 TEST(MeshPairs, rest_on_as_many_points_as_convex_bodies) {
   // A box of 3 x 3 on a flat grid of 8 x 8 cells, touching, above and in it.
-  testing::Surface grid;
-  for (int i = 0; i <= 8; ++i)
-    for (int j = 0; j <= 8; ++j) grid.vertices.emplace_back(i - 4, j - 4, 0);
-  testing::add_squares(grid, 9, 9, false);
-  std::erase_if(grid.triangles, [](const Corners& t) {  // those that join both ends of a row
-    return std::ranges::max(t) - std::ranges::min(t) > 10 || t[0] % 9 == 8;
-  });
-  const MeshPointer flat = grid.shared();
+  const MeshPointer flat = flat_grid(8);
   const ContactShape box{Shape(Box{{1.5, 1.5, 0.5}})};
   const auto at = [](double x, double y, double z) {
     Affine<double> pose;

@@ -81,6 +81,15 @@ TEST(RayAudit, a_wrong_hit_is_found) {
   EXPECT_EQ(audited.audit.failed(RayKind::shadow), 2u);
 }
 
+Rendering audited_picture(const Scene& scene, const World& world, Resolution resolution,
+                          RayAudit& audit) {
+  RenderOptions options;
+  options.resolution = resolution;
+  options.samples = 2;
+  options.integrator.observer = &audit;
+  return render(scene, world, options);
+}
+
 TEST(RayAudit, every_ray_of_a_picture_is_proven) {
   Scene scene = row_of_balls();
   scene.camera.position = {-6, 4, 4};
@@ -90,11 +99,7 @@ TEST(RayAudit, every_ray_of_a_picture_is_proven) {
   scene.lights.push_back(EnvironmentLight{Colour::Constant(1), Colour::Constant(1)});
   const World world = make_world(scene);
   RayAudit audit(scene, world);
-  RenderOptions options;
-  options.resolution = {48, 27};
-  options.samples = 2;
-  options.integrator.observer = &audit;
-  const Rendering rendering = render(scene, world, options);
+  const Rendering rendering = audited_picture(scene, world, {48, 27}, audit);
   EXPECT_EQ(audit.rays(RayKind::camera), rendering.counts.camera);
   EXPECT_EQ(audit.rays(RayKind::shadow), rendering.counts.shadow);
   EXPECT_EQ(audit.rays(RayKind::ambient), rendering.counts.ambient);
@@ -114,11 +119,7 @@ TEST(RayAudit, rays_that_leave_a_mesh_are_proven_at_the_mesh_itself) {
   scene.lights.push_back(EnvironmentLight{Colour::Constant(1), Colour::Constant(1)});
   const World world = make_world(scene);
   RayAudit audit(scene, world);
-  RenderOptions options;
-  options.resolution = {64, 48};
-  options.samples = 2;
-  options.integrator.observer = &audit;
-  render(scene, world, options);
+  audited_picture(scene, world, {64, 48}, audit);
   EXPECT_GT(audit.rays(RayKind::shadow), 500u);
   EXPECT_TRUE(audit.failures().empty()) << audit.failures().front().message;
   // From the inner side of the ring across its hole, and from there up.

@@ -3,7 +3,6 @@
 import copy
 import os
 import pickle
-import re
 import sys
 import tempfile
 import unittest
@@ -11,18 +10,12 @@ import unittest
 import numpy as np
 
 import minkray as mk
+from errors_support import ErrorCase
 
 SOURCES = sys.argv.pop(1)
 
 
-class Texts(unittest.TestCase):
-    def expect(self, text, work):
-        with self.assertRaises(mk.Error, msg=text) as raised:
-            work()
-        said = str(raised.exception)
-        self.assertTrue(said.startswith(text), f"{said!r} does not begin with {text!r}")
-        self.assertIsNone(re.search(r"minkray_\w+:|incompatible|Invoked with|arg0|pybind|At:", said), said)
-
+class Texts(ErrorCase):
     def test_name_the_function_and_the_argument(self):
         scene, ball = mk.Scene(), mk.sphere(1)
         scene.add(ball)

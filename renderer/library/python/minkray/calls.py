@@ -30,7 +30,8 @@ def _called(function, name, arguments, named):
     return None
 
 
-# Members of options in C, of which some are arguments in Python. Other names may be those of files.
+# Members of options structs in C that are arguments in Python. All else after "options." may be part
+# of a file's name.
 _OPTIONS = ("accelerations|at_most|bounces|budget|geometry|height|integrator|keyframe|margin|max_depth|meshes|"
             "package_dirs|pose|samples|threads|times|tolerance|view|width|within")
 
