@@ -122,10 +122,8 @@ const ContactShape& PosedBody::shape_or_point() const {
 
 void BodiesOfPairs::read(std::size_t i, PosedBody& body) const {
   const HeldShape& held = *shapes_[shapes_.size() == 1 ? 0 : i];
-  if (held.mesh()) [[unlikely]]
-    body.mesh_ = held.mesh();
-  else
-    body.shape_ = &held.contact();
+  body.mesh_ = held.mesh();
+  if (!body.mesh_) body.shape_ = &held.contact();
   if (!given_.poses) {
     body.pose_ = Affine<double>();
     return;

@@ -156,6 +156,35 @@ TEST(LibraryMesh, has_distances_to_its_surface) {
   EXPECT_GE(scene.manifold(0, 1).count, 1);
 }
 
+TEST(LibraryMesh, in_batches_with_shapes_as_alone) {
+  const mk::Shape box = open_box(), ball = mk::sphere(0.25), rod = mk::cylinder(0.2, 0.9);
+  const std::vector<mk::Shape> a = {box, ball, box, ball, rod, box},
+                               b = {rod, rod, box, box, ball, ball};
+  std::vector<mk::Pose> at_a, at_b;
+  for (int i = 0; i < 6; ++i) {
+    at_a.push_back(mk::pose({0.1 * i, 0, 0}, mk::Quaternion{1, 0.2 * i, 0, 0.1}));
+    at_b.push_back(mk::pose({2, 0.3 * i, 1}, mk::Quaternion{1, 0, 0.3 * i, 0.2}));
+  }
+  mk::PairOptions options;
+  options.how.threads = 1;
+  std::vector<mk::Distance> distances(a.size());
+  mk::signed_distances({a, at_a, {}}, {b, at_b, {}}, distances, options);
+  std::vector<mk::Impact> impacts(a.size());
+  const mk::Twist left{{-1, 0, 0}, {0, 0.2, 0}};
+  const double t_max = 5;
+  mk::times_of_impact({a, at_a, {}}, {b, at_b, {&left, 1}}, {&t_max, 1}, impacts, options);
+  std::vector<mk::Manifold> manifolds(a.size());
+  mk::manifolds({a, at_a, {}}, {b, at_b, {}}, manifolds, options);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double alone = mk::signed_distance(a[i], at_a[i], b[i], at_b[i]).value;
+    EXPECT_EQ(distances[i].value, alone) << i;
+    EXPECT_NEAR(manifolds[i].value, alone, 1e-9) << i;
+    EXPECT_EQ(impacts[i].t_hi,
+              mk::time_of_impact(a[i], at_a[i], {}, b[i], at_b[i], left, t_max).t_hi)
+        << i;
+  }
+}
+
 TEST(LibraryMesh, is_refused_where_a_shape_must_be_convex_and_wrong_ones_are) {
   const mk::Shape box = open_box();
   EXPECT_TRUE(has(error_of([&] { mk::rounded(box, 0.1); }), "must be convex (got a mesh)"));
