@@ -69,6 +69,57 @@ class RayGroup {
     return is_alike;
   }
 
+  /// For rays that are given four at a time: takes the signs and the origin from the first one.
+  void begin(const SlabNumbers& first) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      near_[k] = first.near[k];
+      origin_near_[k] = first.origin_near[k];
+      origin_far_[k] = first.origin_far[k];
+    }
+  }
+  /// Sets rays i to i + 3 by their directions, the size of the largest component, and t_max, as
+  /// SlabRay does. Returns 0 if they belong to the group, and their steps.
+  [[gnu::always_inline]] int set_four(std::size_t i, const __m256d (&direction)[3], __m256d largest,
+                                      __m256d t_max, double* steps) {
+    const auto all = [](double x) { return _mm256_set1_pd(x); };
+    constexpr double most = 0x1p1000;
+    int is_other =
+        _mm256_movemask_pd(_mm256_or_pd(_mm256_cmp_pd(largest, all(1 / most), _CMP_NGT_UQ),
+                                        _mm256_cmp_pd(largest, all(most), _CMP_NLT_UQ)));
+    // Powers of two by their exponents' bits.
+    const __m256i exponent = _mm256_set1_epi64x(0x7FFll << 52), one = _mm256_set1_epi64x(1ll << 52),
+                  sum = _mm256_set1_epi64x(0x7FEll << 52);
+    const __m256i above =
+        _mm256_add_epi64(_mm256_and_si256(_mm256_castpd_si256(largest), exponent), one);
+    const __m256d is_near_one = _mm256_and_pd(_mm256_cmp_pd(largest, all(0.5), _CMP_GE_OQ),
+                                              _mm256_cmp_pd(largest, all(2), _CMP_LT_OQ));
+    const __m256d times = _mm256_blendv_pd(_mm256_castsi256_pd(above), all(1), is_near_one);
+    const __m256d scale =
+        _mm256_blendv_pd(_mm256_castsi256_pd(_mm256_sub_epi64(sum, above)), all(1), is_near_one);
+    _mm256_store_pd(steps, times);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const __m128 inverse =
+          _mm256_cvtpd_ps(_mm256_div_pd(all(1), _mm256_mul_pd(direction[k], scale)));
+      const __m128 is_finite = _mm_cmplt_ps(_mm_andnot_ps(_mm_set1_ps(-0.0f), inverse),
+                                            _mm_set1_ps(std::numeric_limits<float>::max()));
+      constexpr int lanes = 15;
+      is_other |= lanes & ~_mm_movemask_ps(is_finite);
+      is_other |= _mm_movemask_ps(inverse) ^ (near_[k] != 0 ? lanes : 0);
+      _mm_store_ps(inverse_[k] + i, inverse);
+    }
+    _mm_store_ps(t_max_ + i, _mm_add_ps(_mm_mul_ps(_mm256_cvtpd_ps(_mm256_mul_pd(t_max, times)),
+                                                   _mm_set1_ps(hit_padding)),
+                                        _mm_set1_ps(slab_tiny)));
+    return is_other;
+  }
+  /// After the last of `count` rays.
+  void end(std::size_t count) {
+    for (std::size_t i = count; i < rays_of_group; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) inverse_[k][i] = inverse_[k][0];
+      t_max_[i] = -1;
+    }
+  }
+
   /// Lowers the limit of a ray; false if the limit is already as low.
   bool lower(std::size_t ray, float t_max) {
     if (!(t_max < t_max_[ray])) return false;
@@ -77,10 +128,10 @@ class RayGroup {
   }
 
   /// Calls on_box(box, rays) for the boxes that rays meet, near boxes first; `rays` has a bit for
-  /// each of these rays. on_box returns true if it has lowered a limit. Returns the number of
-  /// nodes.
-  template <class OnBox>
-  [[gnu::always_inline]] std::uint64_t walk(const BvhNode* nodes, OnBox&& on_box) {
+  /// each of these rays. on_box returns true if it has lowered a limit. Calls fetch(child) some
+  /// time before a child is visited. Returns the number of nodes.
+  template <class OnBox, class Fetch>
+  [[gnu::always_inline]] std::uint64_t walk(const BvhNode* nodes, OnBox&& on_box, Fetch&& fetch) {
     struct Waiting {
       float enter;
       std::uint32_t node, child;
@@ -121,6 +172,7 @@ class RayGroup {
       for (const int bottom = top; met != 0; met &= met - 1) {
         const auto child = static_cast<std::uint32_t>(__builtin_ctz(met));
         if (node.children[child] == BvhNode::none) break;
+        fetch(node.children[child]);
         int at = top++;
         for (; at > bottom && stack[at - 1].enter < enters[child]; --at) stack[at] = stack[at - 1];
         stack[at] = {enters[child], node_number, child};

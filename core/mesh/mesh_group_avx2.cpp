@@ -30,45 +30,90 @@ class Group {
         PartCounts& counts)
       : view_(view), rays_(rays), hits_(hits), counts_(counts), count_(count) {}
 
-  /// False if the directions are too different; then no ray is cast.
+  /// False if the directions are too different; then no ray is cast. Takes four rays at a time.
   bool prepare() {
-    const double* const first = reinterpret_cast<const double*>(&rays_[0].ray);
-    SlabRay slabs[rays_of_group];
-    make_slabs_avx2(reinterpret_cast<const char*>(&rays_[0].ray), sizeof(PartRay), count_, slabs);
-    bool is_alike = slabs_.take(slabs, count_);
-    for (std::size_t i = 0; i < count_; ++i) {
-      const double* const ray = reinterpret_cast<const double*>(&rays_[i].ray);
-      leaf_[i] = leaf_ray(ray, ray + 3, ray[6]);
-      steps_[i] = slabs[i].steps;
-      is_alike &= leaf_[i].z == leaf_[0].z && leaf_[i].sign == leaf_[0].sign;
-      for (std::size_t k = 0; k < 3; ++k) is_alike &= ray[k] == first[k];
-    }
-    if (!is_alike) return false;
-    double widest = 0;
-    for (std::size_t i = 0; i < count_; ++i)
-      for (std::size_t k = 0; k < 2; ++k) {
-        const double apart = leaf_[i].shear[k] - leaf_[0].shear[k];
-        apart_[i][k] = static_cast<float>(apart);
-        widest = widest < std::abs(apart) ? std::abs(apart) : widest;
+    const double* const first = numbers_of(0);
+    first_ = leaf_ray(first, first + 3, first[6]);
+    SlabRay slabs;
+    make_slabs_avx2(reinterpret_cast<const char*>(first), 0, 1, &slabs);
+    slabs_.begin(slabs.numbers);
+    const __m256d no_sign = _mm256_set1_pd(-0.0), one = _mm256_set1_pd(1);
+    const __m256d shear_x = _mm256_set1_pd(first_.shear[0]),
+                  shear_y = _mm256_set1_pd(first_.shear[1]);
+    __m256d widest = _mm256_setzero_pd();
+    const __m256d origin = _mm256_loadu_pd(first);
+    int is_other = 0;
+    for (std::size_t i = 0; i < count_; i += 4) {
+      __m256d d[3], t_max;
+      {
+        const double* const r0 = numbers_of(i);
+        const double* const r1 = numbers_of(i + 1 < count_ ? i + 1 : i);
+        const double* const r2 = numbers_of(i + 2 < count_ ? i + 2 : i);
+        const double* const r3 = numbers_of(i + 3 < count_ ? i + 3 : i);
+        constexpr int of_origin = 7;
+        for (const double* const r : {r0, r1, r2, r3})
+          is_other |= of_origin &
+                      ~_mm256_movemask_pd(_mm256_cmp_pd(_mm256_loadu_pd(r), origin, _CMP_EQ_OQ));
+        const __m256d a = _mm256_loadu_pd(r0 + 3), b = _mm256_loadu_pd(r1 + 3),
+                      c = _mm256_loadu_pd(r2 + 3), e = _mm256_loadu_pd(r3 + 3);
+        const __m256d ab_xz = _mm256_unpacklo_pd(a, b), ab_yt = _mm256_unpackhi_pd(a, b),
+                      ce_xz = _mm256_unpacklo_pd(c, e), ce_yt = _mm256_unpackhi_pd(c, e);
+        d[0] = _mm256_permute2f128_pd(ab_xz, ce_xz, 0x20);
+        d[1] = _mm256_permute2f128_pd(ab_yt, ce_yt, 0x20);
+        d[2] = _mm256_permute2f128_pd(ab_xz, ce_xz, 0x31);
+        t_max = _mm256_permute2f128_pd(ab_yt, ce_yt, 0x31);
       }
-    constexpr double of_rounding = 0x1p-30;
-    widest_ = widest + of_rounding;
-    constexpr double most_apart = 0.25;
-    return widest < most_apart;
+      __m256d size[3];
+      for (int k = 0; k < 3; ++k) size[k] = _mm256_andnot_pd(no_sign, d[k]);
+      // The axis must be the one that leaf_ray chooses for each ray.
+      const __m256d length = size[first_.z];
+      for (int k = 0; k < 3; ++k)
+        if (k != first_.z)
+          is_other |=
+              _mm256_movemask_pd(k < first_.z ? _mm256_cmp_pd(length, size[k], _CMP_NGT_UQ)
+                                              : _mm256_cmp_pd(length, size[k], _CMP_NGE_UQ));
+      is_other |= slabs_.set_four(i, d, length, t_max, steps_ + i);
+      const __m256d to_t = _mm256_div_pd(one, d[first_.z]);
+      const __m256d x = _mm256_sub_pd(_mm256_mul_pd(d[first_.x], to_t), shear_x),
+                    y = _mm256_sub_pd(_mm256_mul_pd(d[first_.y], to_t), shear_y);
+      widest = _mm256_max_pd(
+          widest, _mm256_max_pd(_mm256_andnot_pd(no_sign, x), _mm256_andnot_pd(no_sign, y)));
+      _mm256_store_pd(to_t_ + i, to_t);
+      _mm256_store_pd(length_ + i, length);
+      _mm256_store_pd(reach_ + i, _mm256_mul_pd(t_max, length));
+      const __m128 x_float = _mm256_cvtpd_ps(x), y_float = _mm256_cvtpd_ps(y);
+      _mm_store_ps(apart_[i], _mm_unpacklo_ps(x_float, y_float));
+      _mm_store_ps(apart_[i + 2], _mm_unpackhi_ps(x_float, y_float));
+    }
+    slabs_.end(count_);
+    if (is_other != 0) return false;
+    alignas(32) double of_lanes[4];
+    _mm256_store_pd(of_lanes, widest);
+    constexpr double of_rounding = 0x1p-30, most_apart = 0.25;
+    const double most =
+        std::max(std::max(of_lanes[0], of_lanes[1]), std::max(of_lanes[2], of_lanes[3]));
+    widest_ = most + of_rounding;
+    return most < most_apart;
   }
 
   /// Returns the number of rays tested in each leaf.
   std::size_t walk() {
     std::size_t leaves = 0, looks = 0;
-    counts_.nodes += slabs_.walk(view_.nodes, [&](std::uint32_t leaf, std::uint32_t in) {
+    const auto on_leaf = [&](std::uint32_t leaf, std::uint32_t in) {
       ++leaves;
       looks += static_cast<std::size_t>(__builtin_popcount(in));
       return look_at(view_.leaves[leaf], in);
-    });
+    };
+    counts_.nodes +=
+        slabs_.walk(view_.nodes, on_leaf, [&](std::uint32_t what) { fetch(view_, what); });
     return leaves == 0 ? rays_of_group : looks / leaves;
   }
 
  private:
+  const double* numbers_of(std::size_t i) const {
+    return reinterpret_cast<const double*>(&rays_[i].ray);
+  }
+
   /// Same as lanes_that_may_be_met, with these bounds. For a ray whose shears are dx and dy more,
   /// an edge function is at_first - dx by_x - dy by_y, without any rest. P is the largest sheared
   /// coordinate of the first ray, Z that of z, g the widest shear, u = 2^-24:
@@ -79,7 +124,7 @@ class Group {
   /// In total: less than 64 u P (P + g Z) + (0.05 + 4 far) (P + g Z).
   [[gnu::always_inline]] LeafEdges edges_of(const MeshLeaf& leaf) const {
     constexpr double half_cube = 32767.5, cube = 65535;
-    const LeafRay& ray = leaf_[0];
+    const LeafRay& ray = first_;
     LeafEdges edges;
     const double scale = static_cast<double>(leaf.scale());
     const double oz = static_cast<double>(leaf.origin[ray.z]) - ray.origin[ray.z];
@@ -130,7 +175,6 @@ class Group {
 
   /// The lanes of triangles that the ray may meet.
   [[gnu::always_inline]] std::uint32_t lanes_of(const LeafEdges& edges, std::size_t i) const {
-    const LeafRay& ray = leaf_[i];
     const __m256 dx = _mm256_broadcast_ss(&apart_[i][0]), dy = _mm256_broadcast_ss(&apart_[i][1]);
     __m256 edge[3];
     for (int k = 0; k < 3; ++k)
@@ -149,8 +193,8 @@ class Group {
     const __m256 is_beside =
         _mm256_and_ps(_mm256_cmp_ps(least, _mm256_xor_ps(bound, _mm256_set1_ps(-0.0f)), _CMP_LT_OQ),
                       _mm256_cmp_ps(greatest, bound, _CMP_GT_OQ));
-    const double last = (ray.reach - static_cast<double>(ray.sign) * edges.oz) * edges.scale +
-                        edges.margin + 0x1p-50 * edges.scale * ray.reach;
+    const double last = (reach_[i] - static_cast<double>(first_.sign) * edges.oz) * edges.scale +
+                        edges.margin + 0x1p-50 * edges.scale * reach_[i];
     const __m256 is_behind = _mm256_cmp_ps(
         edges.nearest, _mm256_set1_ps(static_cast<float>(last + 0x1p-22 * std::abs(last))),
         _CMP_GT_OQ);
@@ -159,12 +203,22 @@ class Group {
 
   /// True if any ray's t_max is lower now.
   bool look_at(const MeshLeaf& leaf, std::uint32_t in) {
-    const LeafEdges edges = edges_of(leaf);
     const std::uint32_t full = (2u << (leaf.packed_scale & 7u)) - 1;
+    fetch_indices(view_, leaf);
+    const LeafEdges edges = edges_of(leaf);
+    std::uint32_t all = 0;
+    std::uint8_t of_ray[rays_of_group];
+    for (std::uint32_t left = in; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::size_t>(__builtin_ctz(left));
+      const std::uint32_t lanes = lanes_of(edges, i) & full;
+      of_ray[i] = static_cast<std::uint8_t>(lanes);
+      all |= lanes;
+    }
+    for (; all != 0; all &= all - 1) fetch_corners(view_, leaf.triangles[__builtin_ctz(all)]);
     bool is_lower = false;
     for (; in != 0; in &= in - 1) {
       const auto i = static_cast<std::size_t>(__builtin_ctz(in));
-      for (std::uint32_t lanes = lanes_of(edges, i) & full; lanes != 0; lanes &= lanes - 1)
+      for (std::uint32_t lanes = of_ray[i]; lanes != 0; lanes &= lanes - 1)
         is_lower |= cast(i, leaf.triangles[__builtin_ctz(lanes)]);
     }
     return is_lower;
@@ -173,12 +227,12 @@ class Group {
   bool cast(std::size_t i, std::uint32_t triangle) {
     ++counts_.triangles;
     const PartRay& ray = rays_[i];
-    const PartHit hit = cast_in_lanes(view_, triangle, cast_ray_of(ray.ray, leaf_[i]));
+    const PartHit hit = cast_in_lanes(view_, triangle, {&ray.ray, to_t_[i], first_.z});
     if (!hit.found() || !(hit.t >= ray.t_min) || !(hit.t <= ray.ray.t_max) ||
         !takes_place(*view_.mesh, ray.ray, hits_[i], hit))
       return false;
     hits_[i] = hit;
-    leaf_[i].reach = (hit.t + hit.error) * leaf_[i].length;
+    reach_[i] = (hit.t + hit.error) * length_[i];
     SlabRay limits;
     limits.steps = steps_[i];
     return slabs_.lower(i, limits.limit(hit.t + hit.error));
@@ -191,9 +245,10 @@ class Group {
   std::size_t count_;
   double widest_;  ///< shear from the first ray's
   RayGroup slabs_;
-  LeafRay leaf_[rays_of_group];
-  double steps_[rays_of_group];
-  float apart_[rays_of_group][2];  ///< shears, without the first ray's
+  LeafRay first_;
+  alignas(32) double steps_[rays_of_group], to_t_[rays_of_group], reach_[rays_of_group],
+      length_[rays_of_group];                  ///< as in LeafRay
+  alignas(16) float apart_[rays_of_group][2];  ///< shears, without the first ray's
 };
 
 }  // namespace

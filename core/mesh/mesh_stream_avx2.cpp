@@ -180,13 +180,7 @@ class Stream {
     leaf_count_ += is_leaf;
     nodes_[node_count_] = turn;
     node_count_ += 1 - is_leaf;
-    const char* const ahead =
-        is_leaf ? reinterpret_cast<const char*>(view_.leaves + (what & ~BvhNode::leaf))
-                : reinterpret_cast<const char*>(view_.nodes + what);
-    __builtin_prefetch(ahead);
-    __builtin_prefetch(ahead + 64);
-    __builtin_prefetch(ahead + 128);
-    __builtin_prefetch(ahead + 192);
+    fetch(view_, what);
   }
 
   void answer(const Turn& turn) {
@@ -216,10 +210,7 @@ class Stream {
     }
     for (std::uint32_t i = 0; i < left_count; ++i) {
       const std::uint32_t k = left[i];
-      const CornerPlaces at = corner_places(view_, leaf[k]->triangles[__builtin_ctz(lanes[k])]);
-      __builtin_prefetch(at.a);
-      __builtin_prefetch(at.b);
-      __builtin_prefetch(at.c);
+      fetch_corners(view_, leaf[k]->triangles[__builtin_ctz(lanes[k])]);
     }
     for (std::uint32_t i = 0; i < left_count; ++i)
       cast(*now[left[i]], *leaf[left[i]], lanes[left[i]]);

@@ -16,13 +16,6 @@ struct Waiting {
   std::uint32_t what;
 };
 
-void fetch(const MeshView& view, std::uint32_t what) {
-  const char* const at = what & BvhNode::leaf
-                             ? reinterpret_cast<const char*>(view.leaves + (what & ~BvhNode::leaf))
-                             : reinterpret_cast<const char*>(view.nodes + what);
-  for (int line = 0; line < 4; ++line) __builtin_prefetch(at + 64 * line);
-}
-
 /// Calls on_lanes(leaf, lanes) for the triangles that lanes cannot rule out in the leaves that the
 /// ray meets, near leaves first. on_lanes may lower t_max and reach, and ends the walk by returning
 /// true.
@@ -35,6 +28,7 @@ template <class OnLanes>
   for (;;) {
     if (what & BvhNode::leaf) {
       const MeshLeaf& leaf = view.leaves[what & ~BvhNode::leaf];
+      fetch_indices(view, leaf);
       const std::uint32_t lanes = lanes_that_may_be_met(leaf, ray);
       if (lanes != 0 && on_lanes(leaf, lanes)) return visited;
     } else {

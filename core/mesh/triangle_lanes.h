@@ -44,6 +44,25 @@ struct CornerPlaces {
           view.vertices + 3 * std::size_t{corners[2]}};
 }
 
+/// Prefetches a node, or a leaf.
+[[gnu::always_inline]] inline void fetch(const MeshView& view, std::uint32_t what) {
+  const char* const at = what & BvhNode::leaf
+                             ? reinterpret_cast<const char*>(view.leaves + (what & ~BvhNode::leaf))
+                             : reinterpret_cast<const char*>(view.nodes + what);
+  for (int line = 0; line < 4; ++line) __builtin_prefetch(at + 64 * line);
+}
+/// Prefetches the indices of a leaf's corners, while its lanes are computed.
+[[gnu::always_inline]] inline void fetch_indices(const MeshView& view, const MeshLeaf& leaf) {
+  for (const std::uint32_t triangle : leaf.triangles)
+    __builtin_prefetch(view.corners + 3 * std::size_t{triangle});
+}
+[[gnu::always_inline]] inline void fetch_corners(const MeshView& view, std::uint32_t triangle) {
+  const auto [a, b, c] = corner_places(view, triangle);
+  __builtin_prefetch(a);
+  __builtin_prefetch(b);
+  __builtin_prefetch(c);
+}
+
 /// Same as cast_at_part.
 [[gnu::always_inline]] inline PartHit cast_in_lanes(const MeshView& view, std::uint32_t triangle,
                                                     const CastRay& cast) {

@@ -155,7 +155,8 @@ void Instances::add(std::shared_ptr<const TriangleMesh> mesh, const Affine<doubl
   places_.push_back({});
   places_.back().body = body_of_mesh;
   if (!digits_.empty()) digits_.push_back({});
-  boxes_.push_back(rounded_outwards(padded(meshes_.back().bounds())));
+  boxes_.push_back(
+      rounded_outwards(padded(meshes_.back().tight_bounds_under(meshes_.back().pose))));
 }
 
 std::size_t Instances::index_of_mesh(std::size_t i) const {
@@ -313,7 +314,7 @@ void Instances::pose_all(const std::function<Affine<double>(std::size_t)>& pose_
       0, places_.size(), [&](std::size_t i) { return definitions[i]; }, pose_of);
   for (PosedMesh& one : meshes_) {
     one = PosedMesh(one.instance, std::move(one.mesh), pose_of(one.instance));
-    boxes_[one.instance] = rounded_outwards(padded(one.bounds()));
+    boxes_[one.instance] = rounded_outwards(padded(one.tight_bounds_under(one.pose)));
   }
   if (!movement_of) return;
   parallel_for(places_.size(), poses_a_range, [&](std::size_t begin, std::size_t end) {
@@ -321,7 +322,7 @@ void Instances::pose_all(const std::function<Affine<double>(std::size_t)>& pose_
       movements_[i] = movement_of(i);
       if (is_half_space(i)) continue;
       const auto bounds_at = [&](const Affine<double>& pose) {
-        return is_mesh(i) ? mesh_of(i).bounds_under(pose)
+        return is_mesh(i) ? mesh_of(i).tight_bounds_under(pose)
                           : definition(definition_of(i)).bounds_of(pose);
       };
       const Affine<double> pose = pose_of(i);

@@ -43,35 +43,43 @@ double in_world(const MapLoss& loss, double t) {
   return loss.exponent == 0 ? t : std::ldexp(t, loss.exponent);
 }
 
-void map_origin(const PosedMesh& posed, const Vec3<double>& origin, Ray<double>& near,
-                MapLoss& loss) {
+Vec3<double> mapped_origin(const PosedMesh& posed, const Vec3<double>& origin) {
   const TwoFoldVec3<double> from = exact_difference(origin, posed.pose.translation);
-  if (posed.is_turned) {
-    near.origin = posed.to_mesh * from.high + posed.to_mesh * from.low;
-    loss.origin = map_rounding * (posed.to_mesh.cwiseAbs() * from.high.cwiseAbs()).norm();
-  } else {
-    near.origin = from.rounded();
-    loss.origin = from.low.isZero(0) ? 0 : from.low.norm();
-  }
+  if (!posed.is_turned) return from.rounded();
+  return posed.to_mesh * from.high + posed.to_mesh * from.low;
+}
+
+/// Error of the mapped origin.
+double loss_of_origin(const PosedMesh& posed, const Vec3<double>& origin) {
+  const TwoFoldVec3<double> from = exact_difference(origin, posed.pose.translation);
+  if (!posed.is_turned) return from.low.isZero(0) ? 0 : from.low.norm();
+  return map_rounding * (posed.to_mesh.cwiseAbs() * from.high.cwiseAbs()).norm();
+}
+
+Vec3<double> times_power_of_two(Vec3<double> direction, int exponent) {
+  for (double& x : direction) x = std::ldexp(x, exponent);
+  return direction;
 }
 
 void map_direction(const PosedMesh& posed, const Ray<double>& ray, double most, Ray<double>& near,
                    MapLoss& loss) {
   const double size = ray.direction.cwiseAbs().maxCoeff();
-  Vec3<double> direction = ray.direction;
+  near.direction = ray.direction;
   loss.exponent = 0;
   if (!(size > shortest && size < 1 / shortest)) [[unlikely]] {
     std::frexp(size, &loss.exponent);
     loss.exponent = -loss.exponent;
-    for (double& x : direction) x = std::ldexp(x, loss.exponent);
+    near.direction = times_power_of_two(ray.direction, loss.exponent);
   }
-  near.direction = direction;
-  loss.direction = 0;
-  if (posed.is_turned) {
-    near.direction = posed.to_mesh * direction;
-    loss.direction = map_rounding * (posed.to_mesh.cwiseAbs() * direction.cwiseAbs()).norm();
-  }
+  if (posed.is_turned) near.direction = posed.to_mesh * Vec3<double>(near.direction);
   near.t_max = std::min(in_near(loss, ray.t_max), in_near(loss, most) * (1 + rounding_of_most));
+}
+
+/// Error of the mapped direction.
+double loss_of_direction(const PosedMesh& posed, const Vec3<double>& direction, int exponent) {
+  if (!posed.is_turned) return 0;
+  const Vec3<double> scaled = exponent == 0 ? direction : times_power_of_two(direction, exponent);
+  return map_rounding * (posed.to_mesh.cwiseAbs() * scaled.cwiseAbs()).norm();
 }
 
 /// False if numbers of the mapped ray are too large, or if its direction is zero.
@@ -91,7 +99,7 @@ NearRay near_ray(const PosedMesh& posed, const Ray<double>& ray, double loss = 0
                  double most = std::numeric_limits<double>::infinity()) {
   NearRay near;
   near.loss.before = loss;
-  map_origin(posed, ray.origin, near.part.ray, near.loss);
+  near.part.ray.origin = mapped_origin(posed, ray.origin);
   map_direction(posed, ray, most, near.part.ray, near.loss);
   near.is_number = is_usable(near.part.ray);
   return near;
@@ -121,9 +129,10 @@ bool is_missed_from_behind(const TriangleMesh& mesh, const PartHit& hit) {
   return mesh.sides() == MeshSides::front && hit.is_back;
 }
 
-/// Writes the cast that found the hit. The answer must be as constructed.
-void write_cast(const PosedMesh& posed, const Ray<double>& near, const MapLoss& loss,
-                const PartHit& hit, MeshCast& answer) {
+/// Writes the cast that found the hit. The answer must be as constructed; `direction` is the ray's
+/// before the map, `of_origin` the error of the mapped origin.
+void write_cast(const PosedMesh& posed, const Vec3<double>& direction, const Ray<double>& near,
+                const MapLoss& loss, double of_origin, const PartHit& hit, MeshCast& answer) {
   CastResult<double>& cast = answer.cast;
   // For the shortest directions t is not a finite number: the cast is exhausted.
   const bool is_found = hit.found() && !is_missed_from_behind(*posed.mesh, hit);
@@ -134,12 +143,13 @@ void write_cast(const PosedMesh& posed, const Ray<double>& near, const MapLoss& 
   answer.part = hit.part;
   const Vec3<double> normal = posed.mesh->normal(hit.part) * (hit.is_back ? -1.0 : 1.0);
   // If the ray is uncertain, so is its distance to the triangle's plane.
-  double beside = loss.origin;
+  double beside = of_origin;
   if (loss.before > 0) beside += loss.before * posed.to_mesh.norm();
-  beside += hit.t * loss.direction;
+  const double of_direction = loss_of_direction(posed, direction, loss.exponent);
+  beside += hit.t * of_direction;
   double error = hit.error;
   if (beside > 0) {
-    const double fall = -normal.dot(near.direction) - loss.direction;
+    const double fall = -normal.dot(near.direction) - of_direction;
     error = fall > 0 ? error + beside / fall : std::numeric_limits<double>::infinity();
   }
   const double rest = rest_of(posed.mesh->corner(hit.part, 0), normal, near, hit.t);
@@ -151,10 +161,19 @@ void write_cast(const PosedMesh& posed, const Ray<double>& near, const MapLoss& 
       posed.is_turned ? Vec3<double>((posed.to_mesh.transpose() * normal).normalized()) : normal;
 }
 
-MeshCast cast_of(const PosedMesh& posed, const NearRay& near, const PartHit& hit) {
+MeshCast cast_of(const PosedMesh& posed, const Ray<double>& ray, const NearRay& near,
+                 const PartHit& hit) {
   MeshCast answer;
-  write_cast(posed, near.part.ray, near.loss, hit, answer);
+  const double of_origin = hit.found() ? loss_of_origin(posed, ray.origin) : 0;
+  write_cast(posed, ray.direction, near.part.ray, near.loss, of_origin, hit, answer);
   return answer;
+}
+
+/// The box around the box under the map.
+Bounds<double> box_under(const Affine<double>& map, const Bounds<double>& box) {
+  const Vec3<double> middle = box.centre(), reach = box.reach_of_centre();
+  const Vec3<double> centre = map(middle), around = map.linear.cwiseAbs() * reach;
+  return {centre - around, centre + around};
 }
 
 }  // namespace
@@ -167,10 +186,31 @@ PosedMesh::PosedMesh(std::uint32_t number, std::shared_ptr<const TriangleMesh> o
 }
 
 Bounds<double> PosedMesh::bounds_under(const Affine<double>& other) const {
-  const Bounds<double>& own = mesh->bounds();
-  const Vec3<double> middle = own.centre(), reach = own.reach_of_centre();
-  const Vec3<double> centre = other(middle), around = other.linear.cwiseAbs() * reach;
-  return {centre - around, centre + around};
+  return box_under(other, mesh->bounds());
+}
+
+Bounds<double> PosedMesh::tight_bounds_under(const Affine<double>& other) const {
+  if (other.linear == Mat3<double>::Identity()) return bounds_under(other);
+  constexpr int depth = 3;
+  Bounds<double> tight;
+  const auto extend = [&](const auto& self, std::uint32_t number, int left) -> void {
+    const BvhNode& node = mesh->bvh().nodes[number];
+    for (int i = 0; i < bvh_width && node.children[i] != BvhNode::none; ++i) {
+      const bool is_leaf = (node.children[i] & BvhNode::leaf) != 0;
+      if (left > 1 && !is_leaf) {
+        self(self, node.children[i], left - 1);
+        continue;
+      }
+      const Bounds<float> box = node.box(i);
+      const Bounds<double> under =
+          box_under(other, {box.lower.cast<double>(), box.upper.cast<double>()});
+      tight.extend(under.lower);
+      tight.extend(under.upper);
+    }
+  };
+  extend(extend, 0, depth);
+  const Bounds<double> whole = bounds_under(other);
+  return {whole.lower.cwiseMax(tight.lower), whole.upper.cwiseMin(tight.upper)};
 }
 
 MeshCast cast_ray(const PosedMesh& posed, const Ray<double>& ray, double most, bool leaves,
@@ -178,7 +218,7 @@ MeshCast cast_ray(const PosedMesh& posed, const Ray<double>& ray, double most, b
   const NearRay near = near_ray(posed, ray, loss, most);
   if (!near.is_number) return without_hit(ray);
   const double t_min = t_min_of(posed, near.part.ray, leaves);
-  return cast_of(posed, near, closest_part(*posed.mesh, near.part.ray, t_min, counts));
+  return cast_of(posed, ray, near, closest_part(*posed.mesh, near.part.ray, t_min, counts));
 }
 
 void RaysAtMesh::begin(const PosedMesh& posed, std::size_t most_rays) {
@@ -197,9 +237,8 @@ bool RaysAtMesh::add(std::uint32_t number, const Ray<double>& ray, double most, 
   of_map.before = loss;
   if (count_ > 0 && ray.origin == last_origin_) {
     part.ray.origin = rays_[count_ - 1].ray.origin;
-    of_map.origin = losses_[count_ - 1].origin;
   } else {
-    map_origin(*posed_, ray.origin, part.ray, of_map);
+    part.ray.origin = mapped_origin(*posed_, ray.origin);
     last_origin_ = ray.origin;
   }
   map_direction(*posed_, ray, most, part.ray, of_map);
@@ -227,9 +266,10 @@ void RaysAtMesh::find_any(std::span<std::uint8_t> met, PartCounts& counts) {
   for (std::size_t i = 0; i < count_; ++i) met[numbers_[i]] |= met_[i];
 }
 
-MeshCast RaysAtMesh::closest(std::size_t i) const {
+MeshCast RaysAtMesh::closest(std::size_t i, const Ray<double>& ray, OriginLoss& last) const {
+  if (ray.origin != last.origin) last = {ray.origin, loss_of_origin(*posed_, ray.origin)};
   MeshCast answer;
-  write_cast(*posed_, rays_[i].ray, losses_[i], hits_[i], answer);
+  write_cast(*posed_, ray.direction, rays_[i].ray, losses_[i], last.loss, hits_[i], answer);
   return answer;
 }
 
@@ -270,13 +310,13 @@ MeshCast cast_last_exit(const PosedMesh& posed, const Ray<double>& ray, double l
   PartHit last;
   for (const PartHit& hit : hits)
     if (!last.found() || hit.t > last.t) last = hit;
-  MeshCast exit = cast_of(posed, near, last);
+  MeshCast exit = cast_of(posed, ray, near, last);
   if (exit.cast.status != Status::hit) return exit;
   exit.cast.normal *= -1;
   // Within the errors, another triangle may be the last one.
   for (const PartHit& hit : hits) {
     if (hit.t + hit.error < last.t - last.error) continue;
-    const CastResult<double> other = cast_of(posed, near, hit).cast;
+    const CastResult<double> other = cast_of(posed, ray, near, hit).cast;
     exit.cast.offset_hi =
         std::max(exit.cast.offset_hi,
                  sum_or_more(sum_or_more(other.t_base, other.offset_hi), -exit.cast.t_base));
@@ -290,7 +330,7 @@ bool add_crossings(const PosedMesh& posed, const Ray<double>& ray, double loss,
   if (!near.is_number) return without_hit(ray).cast.status == Status::miss;
   for (const PartHit& hit : crossings(*posed.mesh, near.part.ray)) {
     if (is_missed_from_behind(*posed.mesh, hit)) continue;
-    MeshCast at = cast_of(posed, near, hit);
+    MeshCast at = cast_of(posed, ray, near, hit);
     if (!at.cast.found()) return false;
     if (hit.is_back) at.cast.normal *= -1;
     to.push_back({at, hit.is_back});

@@ -24,6 +24,8 @@ struct PosedMesh {
   /// Bounding box in the world.
   Bounds<double> bounds() const { return bounds_under(pose); }
   Bounds<double> bounds_under(const Affine<double>& other) const;
+  /// The same, but smaller if the mesh is turned: around boxes of its BVH.
+  Bounds<double> tight_bounds_under(const Affine<double>& other) const;
 };
 
 /// Result of a cast at a posed mesh, and the hit triangle. The normal is the triangle's normal on

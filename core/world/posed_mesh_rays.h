@@ -2,6 +2,7 @@
 // Casts many rays at one posed mesh, with the results of single casts but faster.
 #pragma once
 
+#include <limits>
 #include <span>
 
 #include "core/mesh/mesh_rays.h"
@@ -10,11 +11,10 @@
 
 namespace minkray {
 
-/// Error bounds of a ray that is mapped to a mesh's frame.
+/// Loss of a ray that is mapped to a mesh's frame. Hits alone need the errors of the map itself.
 struct MapLoss {
-  double before = 0;                 ///< error of the ray's position before the map
-  double origin = 0, direction = 0;  ///< errors added by the map
-  int exponent = 0;                  ///< the map also multiplies the direction by 2^exponent
+  double before = 0;  ///< error of the ray's position before the map
+  int exponent = 0;   ///< the map also multiplies the direction by 2^exponent
 };
 
 /// Rays that are cast at one mesh together. One object may serve several meshes in turn, without
@@ -30,12 +30,14 @@ class RaysAtMesh {
 
   void find_closest(PartCounts& counts);
   /// Calls take(number, cast) for each ray that hits the mesh, or whose cast is exhausted, with the
-  /// result of cast_ray. Only after find_closest.
-  template <class Take>
-  void each_closest(Take&& take) const {
+  /// result of cast_ray. ray_of(number) returns the ray that was added. Only after find_closest.
+  template <class RayOf, class Take>
+  void each_closest(RayOf&& ray_of, Take&& take) const {
+    OriginLoss last;
     for (std::size_t i = 0; i < count_; ++i) {
       if (!hits_[i].found()) continue;
-      if (const MeshCast cast = closest(i); cast.cast.status != Status::miss)
+      if (const MeshCast cast = closest(i, ray_of(numbers_[i]), last);
+          cast.cast.status != Status::miss)
         take(numbers_[i], cast);
     }
   }
@@ -43,7 +45,12 @@ class RaysAtMesh {
   void find_any(std::span<std::uint8_t> met, PartCounts& counts);
 
  private:
-  MeshCast closest(std::size_t i) const;
+  /// Error of an origin that the map adds; neighbours often share it.
+  struct OriginLoss {
+    Vec3<double> origin = Vec3<double>::Constant(std::numeric_limits<double>::quiet_NaN());
+    double loss = 0;
+  };
+  MeshCast closest(std::size_t i, const Ray<double>& ray, OriginLoss& last) const;
 
   const PosedMesh* posed_ = nullptr;
   std::size_t count_ = 0;

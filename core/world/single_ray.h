@@ -15,6 +15,7 @@ namespace minkray {
 struct SingleWorld {
   const BvhNode* nodes;
   const InstancePlace* places;
+  const TrailingDigits* digits;  ///< null if there are none
   const Screen* screens;
   const RayKinds* shown_to;  ///< indexed by instance; null if all are shown to all rays
 };

@@ -81,6 +81,7 @@ class Pending {
       if (kept == SingleRay::most_candidates) return false;
     }
     ray_.candidates[ray_.candidate_count++] = {instance, first};
+    if (world_.digits) __builtin_prefetch(world_.digits + instance);
     return true;
   }
 

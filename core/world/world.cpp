@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/bvh/stream.h"
 #include "core/bvh/traverse.h"
 #include "core/world/single_ray.h"
 
@@ -167,7 +168,7 @@ bool World::occluded(const WorldRay& ray, QueryCounts& counts) const {
 SingleRay World::single_ray(const WorldRay& ray) const {
   SingleRay single;
   single.ray = &ray.ray;
-  single.slabs = SlabRay(ray.ray);
+  make_slabs_avx2(reinterpret_cast<const char*>(&ray.ray), 0, 1, &single.slabs);
   single.skip = ray.skip;
   single.kinds = ray.kinds;
   single.limit = detail::float_above(ray.ray.t_max);
@@ -175,7 +176,8 @@ SingleRay World::single_ray(const WorldRay& ray) const {
 }
 
 SingleWorld World::single_world() const {
-  return {bvh_.nodes.data(), instances_.places(), instances_.screens(), instances_.shown_to()};
+  return {bvh_.nodes.data(), instances_.places(), instances_.digits(), instances_.screens(),
+          instances_.shown_to()};
 }
 
 bool World::has_screen() const {

@@ -16,6 +16,8 @@ class BlockCaster {
       : instances_(instances), rays_(rays), answer_(answer), hits_(hits) {}
 
   std::uint64_t cast_all() {
+    for (std::size_t i = 0; i < rays_.size(); ++i)
+      if (answer_.instance[i] != no_instance) instances_.prefetch_digits(answer_.instance[i]);
     hits_.found = 0;
     std::uint64_t undecided = 0;
     for (std::size_t from = 0; from < rays_.size(); from += 4) undecided |= cast_four(from);

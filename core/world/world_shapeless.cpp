@@ -134,11 +134,16 @@ void World::closest_shapeless(const RaySpan& rays, std::span<WorldHit> closest,
     }
     PartCounts parts;
     at_mesh.find_closest(parts);
-    at_mesh.each_closest([&](std::uint32_t i, const MeshCast& answer) {
+    const auto seen = [&](std::uint32_t i) {
+      return instances_.seen_by(mesh.instance, rays.ray(i), rays.time(i));
+    };
+    at_mesh.each_closest(seen, [&](std::uint32_t i, const MeshCast& answer) {
       const auto& [cast, part] = answer;
       if (cast.status == Status::exhausted) return give_up(i);
-      if (!closest[i].yields_to(mesh.instance, cast.t())) return;
-      closest[i] = {mesh.instance, instances_.turned(mesh.instance, cast, rays.time(i)), part};
+      WorldHit& hit = closest[i];
+      if (!hit.yields_to(mesh.instance, cast.t())) return;
+      hit = {mesh.instance, cast, part};
+      hit.cast.normal = instances_.turned(mesh.instance, cast.normal, rays.time(i));
       if (!slabs.empty()) slabs[i].numbers.t_max = slabs[i].limit(cast.t());
     });
     counts.add_parts(parts);

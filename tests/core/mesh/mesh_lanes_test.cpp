@@ -182,9 +182,16 @@ TEST(MeshLanes, find_what_double_finds_of_rays_from_one_point) {
       PartRay ray{{from, at - from}};
       if (k % 7 == 0) ray.ray.t_max = 0.99;
       if (k % 11 == 0) ray.t_min = 0.3;
+      if (i % 4 < 2) {  // lengths differ within a group
+        const double length = std::pow(10.0, random.uniform(-3, 3));
+        ray.ray.direction *= length;
+        ray.ray.t_max /= length;
+        ray.t_min /= length;
+      }
       rays.push_back(ray);
     }
   }
+  rays.resize(rays.size() - 5);  // the last group has fewer rays
   int hits = 0;
   EXPECT_EQ(other_answers(mesh, rays, hits), 0);
   EXPECT_GT(hits, int(rays.size()) / 2);

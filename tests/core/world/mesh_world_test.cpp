@@ -66,6 +66,29 @@ TEST(MeshWorld, finds_the_first_of_all_however_rays_are_asked) {
   EXPECT_GT(shapes, 100);
 }
 
+TEST(MeshWorld, boxes_of_turned_meshes_are_tight_and_hold_their_vertices) {
+  testing::Random random(7);
+  const MeshPointer ring = testing::torus(24, 16).shared();
+  double share = 0;
+  constexpr int count = 50;
+  for (int i = 0; i < count; ++i) {
+    const PosedMesh posed(0, ring, random_pose(random, 100));
+    const Bounds<double> tight = posed.tight_bounds_under(posed.pose), whole = posed.bounds();
+    Bounds<double> exact;
+    for (const Vec3<double>& vertex : ring->vertices()) exact.extend(posed.pose(vertex));
+    constexpr double rounding = 1e-13;
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_LE(tight.lower[k], exact.lower[k] + rounding);
+      EXPECT_GE(tight.upper[k], exact.upper[k] - rounding);
+      EXPECT_GE(tight.lower[k], whole.lower[k]);
+      EXPECT_LE(tight.upper[k], whole.upper[k]);
+    }
+    share += (tight.half_extents().prod() - exact.half_extents().prod()) /
+             (whole.half_extents().prod() - exact.half_extents().prod()) / count;
+  }
+  EXPECT_LT(share, 0.7);  // of the room around the mesh in its turned box
+}
+
 TEST(MeshWorld, a_block_of_triangles_is_met_where_the_box_is) {
   testing::Random random(3);
   const MeshPointer block = testing::block({0.3, 0.4, 0.5}).shared();
