@@ -97,6 +97,10 @@ class World {
   const Bvh& bvh() const { return bvh_; }
   const CastOptions& options() const { return options_; }
 
+  /// Number of rays in different directions to trace together: more if there are many meshes, as
+  /// the rays at one mesh are traced together.
+  std::size_t rays_at_once() const;
+
   /// Memory of instances and BVH, without the hulls' points, which are shared.
   std::size_t bytes() const { return bvh_.bytes() + mesh_boxes_.bytes() + instances_.bytes(); }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Chooses how rays are traced: neighbouring rays with similar directions as blocks, others as a
 // stream, few rays one by one.
+#include <algorithm>
+
 #include "core/bvh/group_walk.h"
 #include "core/world/ray_block.h"
 #include "core/world/world.h"
@@ -11,8 +13,9 @@ namespace {
 /// Least number of rays for a stream or a block; fewer are faster one by one.
 constexpr std::size_t least_stream = 4, least_block = 16;
 
-/// Number of rays that are cast together in a world of half-spaces and meshes.
-constexpr std::size_t rays_at_shapeless = 512;
+/// Limits of the number of rays that are cast together in a world of half-spaces and meshes, and
+/// the number per mesh between these limits.
+constexpr std::size_t least_at_meshes = 512, most_at_meshes = 8192, rays_per_mesh = 160;
 
 /// True if the rays may form a block.
 bool may_be_block(const RaySpan& rays) {
@@ -70,11 +73,17 @@ void World::closest_hits(const RaySpan& rays, HitReceiver& to, QueryCounts& coun
   stream_up_to(rays.size());
 }
 
+std::size_t World::rays_at_once() const {
+  if (!bvh_.nodes.empty()) return rays_of_stream;
+  return std::clamp(rays_per_mesh * instances_.meshes().size(), least_at_meshes, most_at_meshes);
+}
+
 void World::answer_shapeless(const RaySpan& rays, HitReceiver& to, QueryCounts& counts) const {
-  std::vector<WorldHit> hits(std::min(rays.size(), rays_at_shapeless));
+  const std::size_t at_once = rays_at_once();
+  std::vector<WorldHit> hits(std::min(rays.size(), at_once));
   std::vector<std::uint8_t> is_exhausted(hits.size());
-  for (std::size_t first = 0; first < rays.size(); first += rays_at_shapeless) {
-    const std::size_t count = std::min(rays_at_shapeless, rays.size() - first);
+  for (std::size_t first = 0; first < rays.size(); first += at_once) {
+    const std::size_t count = std::min(at_once, rays.size() - first);
     const std::span closest(hits.data(), count);
     std::ranges::fill(closest, WorldHit::miss());
     closest_shapeless(rays.part(first, count), closest, is_exhausted, counts);
@@ -93,8 +102,9 @@ void World::occluded(const RaySpan& rays, std::span<std::uint8_t> met, QueryCoun
     for (std::size_t i = 0; i < rays.size(); ++i) met[i] = occluded(rays[i], counts) ? 1 : 0;
     return;
   }
-  for (std::size_t first = 0; first < rays.size(); first += rays_of_stream) {
-    const std::size_t count = std::min(rays_of_stream, rays.size() - first);
+  const std::size_t at_once = rays_at_once();
+  for (std::size_t first = 0; first < rays.size(); first += at_once) {
+    const std::size_t count = std::min(at_once, rays.size() - first);
     occluded_in_stream(rays.part(first, count), met.subspan(first, count), counts);
   }
 }

@@ -18,9 +18,12 @@ namespace {
 /// Least number of rays to trace together; fewer are faster one by one.
 constexpr std::size_t least_together = 4;
 
-/// Largest number of meshes for tracing rays in different directions together: with more, single
-/// rays are as fast.
-constexpr std::size_t most_meshes = 4;
+/// Whether rays in different directions are traced together. With more meshes and few rays of each,
+/// single rays are as fast.
+bool are_worth_rounds(std::size_t rays, std::size_t meshes) {
+  constexpr std::size_t most_meshes = 4, least_of_mesh = 32;
+  return meshes <= most_meshes || rays >= least_of_mesh * meshes;
+}
 
 }  // namespace
 
@@ -167,12 +170,14 @@ void World::closest_shapeless(const RaySpan& rays, std::span<WorldHit> closest,
   const auto cast_up_to = [&](std::uint32_t end) {
     const std::uint32_t first = std::exchange(waiting, end);
     if (first >= end) return;
-    for (std::uint32_t i = first; meshes > most_meshes && i < end; ++i) {
-      const std::uint64_t before = counts.exhausted;
-      closer_mesh(rays[i], closest[i], counts);
-      if (counts.exhausted > before) is_exhausted[i] = 1;
+    if (!are_worth_rounds(end - first, meshes)) {
+      for (std::uint32_t i = first; i < end; ++i) {
+        const std::uint64_t before = counts.exhausted;
+        closer_mesh(rays[i], closest[i], counts);
+        if (counts.exhausted > before) is_exhausted[i] = 1;
+      }
+      return;
     }
-    if (meshes > most_meshes) return;
     BoxRounds rounds(mesh_boxes_, boxes_of_meshes_, make_slabs(first, end));
     counts.nodes += rounds.nodes();
     const auto visit = [&](std::uint32_t mesh, std::span<const std::uint32_t> of_round) {
@@ -206,8 +211,8 @@ void World::closest_shapeless(const RaySpan& rays, std::span<WorldHit> closest,
 void World::blocked_by_shapeless(const RaySpan& rays, std::span<std::uint8_t> met,
                                  QueryCounts& counts) const {
   const std::size_t meshes = instances_.meshes().size();
-  const bool are_together =
-      has_screen() && rays.size() >= least_together && meshes > 0 && meshes <= most_meshes;
+  const bool are_together = has_screen() && rays.size() >= least_together && meshes > 0 &&
+                            are_worth_rounds(rays.size(), meshes);
   std::ranges::fill(met, std::uint8_t{0});
   const bool has_half_spaces = !instances_.half_spaces().empty();
   for (std::size_t i = 0; (has_half_spaces || !are_together) && i < rays.size(); ++i) {

@@ -54,7 +54,9 @@ void cast_rays(const HeldScene& scene, const RaySource& rays, const minkray_opti
     QueryCounts counts;
     world.closest_hits(rays.part(first, end - first, room), writer, counts);
   };
-  work_on_groups(rays.size(), gathered ? gathered_at_once : rays_a_part, gathered, options, part);
+  work_on_groups(rays.size(),
+                 gathered ? gathered_at_once : std::max(rays_a_part, world.rays_at_once()),
+                 gathered, options, part);
   throw_if_lied(scene.customs());
 }
 
@@ -77,7 +79,9 @@ void find_occluded(const HeldScene& scene, const RaySource& rays, std::uint8_t* 
       met[i] = met[i] != 0 ? MINKRAY_HIT : is_exhausted ? MINKRAY_EXHAUSTED : MINKRAY_MISS;
     }
   };
-  work_on_groups(rays.size(), gathered ? gathered_at_once : rays_a_part, gathered, options, part);
+  work_on_groups(rays.size(),
+                 gathered ? gathered_at_once : std::max(rays_a_part, world.rays_at_once()),
+                 gathered, options, part);
   throw_if_lied(scene.customs());
 }
 
