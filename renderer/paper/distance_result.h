@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "core/math/vec.h"
+#include "core/support/named_kind.h"
 
 namespace minkray {
 
@@ -17,15 +18,7 @@ enum class DistanceStatus : unsigned char {
 };
 
 constexpr std::string_view name_of(DistanceStatus status) {
-  switch (status) {
-    case DistanceStatus::separated:
-      return "separated";
-    case DistanceStatus::overlapping:
-      return "overlapping";
-    case DistanceStatus::exhausted:
-      return "exhausted";
-  }
-  return "unknown";
+  return name_at({"separated", "overlapping", "exhausted"}, status);
 }
 
 /// Result for objects A and B. Points and the axis are in the frame of the query.
