@@ -7,6 +7,7 @@
 
 #include "core/cast/cast.h"
 #include "core/derived/shape_bounds.h"
+#include "renderer/paper/solvers.h"
 #include "tests/support/random.h"
 
 namespace minkray::testing {
@@ -107,7 +108,7 @@ TEST(Recentred, a_small_disk_far_out_in_a_sum_is_hit_by_all_solvers) {
     const CastOptions options{solver};
     const CastResult<double> answer = cast_ray(PreparedShape(shape), ray, options);
     // The error of the place exceeds the size.
-    EXPECT_NE(answer.status, Status::miss) << static_cast<int>(solver);
+    EXPECT_NE(answer.status, Status::miss) << name_in(named_solvers, solver);
   }
 }
 

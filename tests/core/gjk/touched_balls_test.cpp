@@ -32,7 +32,7 @@ TEST(TouchedBalls, rays_through_a_ball_do_not_miss_it_however_short_the_way) {
       const Ray<double> ray{{-3, 1 - roundings * epsilon, 0}, {1, 0, 0}};
       const CastResult<double> answer = cast_ray(ball, ray, options);
       EXPECT_NE(name_of(answer.status), name_of(Status::miss))
-          << static_cast<int>(solver) << " " << roundings;
+          << name_in(named_solvers, solver) << " " << roundings;
     }
   }
 }
