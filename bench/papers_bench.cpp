@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "bench/papers/comparisons.h"
-#include "renderer/shape_cast/distance.h"
+#include "renderer/paper/distance.h"
 
 int main() {
   using namespace minkray;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "renderer/shape_cast/distance.h"
+#include "renderer/paper/distance.h"
 
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>

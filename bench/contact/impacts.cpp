@@ -7,7 +7,7 @@
 
 #include "bench/contact/peers.h"
 #include "core/pair_motion/impact.h"
-#include "renderer/shape_cast/shape_cast.h"
+#include "renderer/paper/shape_cast.h"
 
 namespace minkray::bench {
 namespace {

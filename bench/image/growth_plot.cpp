@@ -7,7 +7,7 @@
 #include <limits>
 #include <sstream>
 
-#include "renderer/paper/plot.h"
+#include "renderer/claims/plot.h"
 
 namespace minkray::bench {
 namespace {

@@ -3,9 +3,9 @@
 #include "bench/league/adapter.h"
 #include "core/cast/cast.h"
 #include "core/pair_distance/signed_distance.h"
+#include "renderer/paper/distance.h"
+#include "renderer/paper/shape_cast.h"
 #include "renderer/query/query_json.h"
-#include "renderer/shape_cast/distance.h"
-#include "renderer/shape_cast/shape_cast.h"
 
 namespace {
 

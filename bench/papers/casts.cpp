@@ -4,13 +4,15 @@
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
 
 #include "bench/papers/comparisons.h"
-#include "renderer/shape_cast/distance.h"
-#include "renderer/shape_cast/shape_cast.h"
+#include "renderer/paper/distance.h"
+#include "renderer/paper/shape_cast.h"
+#include "renderer/paper/solvers.h"
 
 namespace minkray::bench {
 namespace {
 
-Contestant our_cast(const Everywhere& a, const Everywhere& b, SolverKind solver, const char* name) {
+Contestant our_cast(const Everywhere& a, const Everywhere& b, const Solver* solver,
+                    const char* name) {
   return {name, [&a, &b, solver, A = a.ours, B = b.ours](const Query& query) {
             CastOptions options;
             options.solver = solver;
@@ -41,9 +43,9 @@ void compare_casts(const Everywhere& a, const Everywhere& b, const std::vector<Q
     };
   };
   std::vector<Contestant> contestants = {
-      our_cast(a, b, SolverKind::paper, "minkray, paper"),
-      our_cast(a, b, SolverKind::automatic, "minkray, auto"),
-      our_cast(a, b, SolverKind::first_solution, "minkray, Algorithm 1"),
+      our_cast(a, b, &solver::gjk_alone, "minkray, paper"),
+      our_cast(a, b, &solver::automatic, "minkray, auto"),
+      our_cast(a, b, &solver::first_solution, "minkray, Algorithm 1"),
       {"Bullet btSubsimplexConvexCast", bullet([&](btVoronoiSimplexSolver* simplex) {
          return btSubsimplexConvexCast(a.bullet.get(), b.bullet.get(), simplex);
        })},

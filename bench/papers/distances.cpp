@@ -7,7 +7,7 @@
 #include <array>
 
 #include "bench/papers/comparisons.h"
-#include "renderer/shape_cast/distance.h"
+#include "renderer/paper/distance.h"
 
 namespace minkray::bench {
 namespace {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/cast/packet_cast.h"
+#include "renderer/paper/solvers.h"
 
 namespace minkray::bench {
 namespace {
@@ -66,11 +67,11 @@ class Packets : public Peer {
 Peers scalar_solvers(const Shape& shape, bool sweep) {
   const auto prepared = std::make_shared<PreparedShape>(shape);
   Peers peers;
-  for (const SolverDescription& description : solver_descriptions) {
+  for (const auto& description : named_solvers) {
     // The slow references of the paper's convergence study are not for speed.
-    const bool measured = description.kind != SolverKind::first_solution &&
-                          description.kind != SolverKind::paper_johnson &&
-                          description.kind != SolverKind::paper_signed_volumes;
+    const bool measured = description.kind != &solver::first_solution &&
+                          description.kind != &solver::paper_johnson &&
+                          description.kind != &solver::paper_signed_volumes;
     if (!measured) continue;
     CastOptions options;
     options.solver = description.kind;
@@ -87,7 +88,7 @@ Peers scalar_solvers(const Shape& shape, bool sweep) {
         Tolerance{1e-6, "1e-6", false}, Tolerance{1e-8, "1e-8", false}}) {
     if (!tolerance.always && !sweep) continue;
     CastOptions options;
-    options.solver = SolverKind::paper;
+    options.solver = &solver::gjk_alone;
     options.eps_tol = tolerance.eps_tol;
     peers.push_back(solver(std::string("paper-") + tolerance.text, prepared, options));
   }

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Runs the stages of a cast (policy.h) that use support points alone, for an observer of any type.
+// Runs the stages of a cast (solver.h) that use support points alone, for an observer of any type.
 #pragma once
 
 #include "core/cast/stages.h"
-#include "core/gjk/first_solution.h"
 #include "core/gjk/gjk_ray_cast.h"
-#include "core/gjk/subalgorithm.h"
 
 namespace minkray {
 
-/// Reference algorithms and observed casts are compiled only for the type Shape. Code for every
-/// kind of shape would not be worthwhile.
+/// Observed casts are compiled only for the type Shape: code for every kind of shape would not be
+/// worthwhile.
 template <class Observer>
 CastResult<double> cast_with_gjk(Stage stage, const StageQuestion& question, Observer&& observer) {
   const auto& near = question.near;
@@ -20,21 +18,14 @@ CastResult<double> cast_with_gjk(Stage stage, const StageQuestion& question, Obs
   GjkCastOptions<double> gjk{options.eps_tol, options.max_iterations, options.v0};
   if (!gjk.v0.isZero(0)) gjk.v0 = question.shape.normal_to_inner(gjk.v0);
   const auto answer = [&] {
-    switch (stage) {
-      case Stage::algorithm_1:
-        return first_solution(any, near, ball, tolerance::first_solution_max_supports, observer);
-      case Stage::johnson:
-        return gjk_ray_cast(any, near, ball, gjk, observer, JohnsonSubalgorithm<double, 3>());
-      case Stage::signed_volumes:
-        return gjk_ray_cast(any, near, ball, gjk, observer, SignedVolumesSubalgorithm<double, 3>());
-      default:
-        if constexpr (std::is_same_v<std::remove_cvref_t<Observer>, NoObserver>)
-          return std::visit(
-              [&](const auto& kind) { return gjk_ray_cast(kind, near, ball, gjk, observer); },
-              any.kind);
-        else
-          return gjk_ray_cast(any, near, ball, gjk, observer);
-    }
+    if (stage == Stage::given)
+      return options.solver->given(any, near, ball, gjk, question.observer);
+    if constexpr (std::is_same_v<std::remove_cvref_t<Observer>, NoObserver>)
+      return std::visit(
+          [&](const auto& kind) { return gjk_ray_cast(kind, near, ball, gjk, observer); },
+          any.kind);
+    else
+      return gjk_ray_cast(any, near, ball, gjk, observer);
   };
   CastResult<double> result = answer();
   result.path = Path::gjk;

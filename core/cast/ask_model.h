@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Runs the stage of a cast (policy.h) that uses models (core/model), for an observer of any type.
+// Runs the stage of a cast (solver.h) that uses models (core/model), for an observer of any type.
 #pragma once
 
 #include "core/cast/stages.h"

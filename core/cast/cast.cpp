@@ -11,8 +11,7 @@ namespace {
 
 /// True if the shape has a closed form and no particular solver was requested.
 bool asks_filter(const PreparedShape& shape, const CastOptions& options) {
-  return options.solver == SolverKind::automatic &&
-         shape.definition().form().kind != FormKind::none;
+  return options.solver == &solver::automatic && shape.definition().form().kind != FormKind::none;
 }
 
 /// For a miss, sets all numbers of t to 0.

@@ -2,19 +2,17 @@
 // Casts a ray at a shape with any of the solvers.
 #pragma once
 
-#include <functional>
-
 #include "core/cast/prepared_shape.h"
+#include "core/cast/solver.h"
 #include "core/math/ray.h"
 #include "core/query/observer.h"
 #include "core/query/result.h"
-#include "core/query/solver_kind.h"
 #include "core/query/tolerances.h"
 
 namespace minkray {
 
 struct CastOptions {
-  SolverKind solver = SolverKind::automatic;
+  const Solver* solver = &solver::automatic;
   /// Relative tolerance of squared lengths, for solvers that use one (eps_tol in van den Bergen,
   /// 2004).
   double eps_tol = tolerance::gjk_squared<double>;
@@ -23,8 +21,6 @@ struct CastOptions {
   /// plane that separated ray and shape in the previous picture of an animation. Zero for none.
   Vec3<double> v0 = Vec3<double>::Zero();
 };
-
-using CastObserver = std::function<void(const CastIteration<double>&)>;
 
 /// Finds where the ray enters the shape: the least t in [0, t_max] at which origin + t * direction
 /// lies in the shape. If the origin is in the shape, the status is inside and t = 0. Numbers must

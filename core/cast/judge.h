@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Selects the result of a cast from the results of its stages (policy.h). Takes the first result
+// Selects the result of a cast from the results of its stages (solver.h). Takes the first result
 // that needs no proof or is proven to the precision of double ("sharply"). Without such a
 // result, takes the first one with a coarser proof.
 #pragma once

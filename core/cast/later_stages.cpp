@@ -29,13 +29,13 @@ bool is_exact(const CastOptions& options) {
 }
 
 bool has_stage(const PreparedShape& shape, const CastOptions& options, Stage stage) {
-  const auto& stages = policy_of(options.solver, kind_of(shape.definition())).stages;
+  const auto& stages = options.solver->policy_of(kind_of(shape.definition())).stages;
   return std::find(stages.begin(), stages.end(), stage) != stages.end();
 }
 
 /// Runs the policy's stages until the judge accepts a result.
 CastResult<double> answer_of_stages(const StageQuestion& question) {
-  const Policy& policy = policy_of(question.options.solver, kind_of(question.shape.definition()));
+  const Policy& policy = question.options.solver->policy_of(kind_of(question.shape.definition()));
   const bool exact = is_exact(question.options);
   Judge judge(question, exact ? policy.proof : Proof::none);
   for (const Stage stage : policy.stages) {
@@ -68,7 +68,7 @@ CastResult<double> answer_of_stages(const StageQuestion& question) {
 /// Runs the stages. The result's normal is in the inner frame.
 CastResult<double> ask_stages(const StageQuestion& question) {
   CastResult<double> found = answer_of_stages(question);
-  const bool is_checked = question.options.solver == SolverKind::automatic &&
+  const bool is_checked = question.options.solver == &solver::automatic &&
                           is_exact(question.options) && found.status == Status::hit;
   if (is_checked && -found.normal.dot(question.near.r) < tolerance::bounded_slope<double>)
     found.offset_hi = std::numeric_limits<double>::infinity();
@@ -150,7 +150,7 @@ void end_far_cast(const PreparedShape& shape, const RayNearBall<double>& near,
 void bound_hit(const PreparedShape& shape, const RayNearBall<double>& near,
                const CastOptions& options, CastResult<double>& result) {
   if (result.status == Status::hit && std::isinf(result.offset_hi) && is_exact(options) &&
-      options.solver == SolverKind::automatic)
+      options.solver == &solver::automatic)
     enclose_ray(shape, near, shape.normal_to_inner(result.normal), result);
 }
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Later stages of a cast (policy.h): those after `filter` and `bounds`, one function each. Ray and
+// Later stages of a cast (solver.h): those after `filter` and `bounds`, one function each. Ray and
 // result are in the shape's inner frame; each result has its `path` set.
 #pragma once
 
 #include "core/cast/cast.h"
-#include "core/cast/policy.h"
 
 namespace minkray {
 
@@ -23,7 +22,7 @@ CastResult<double> ask_operands(const StageQuestion& question);
 /// Runs Stage::model or Stage::support_portal.
 CastResult<double> ask_model(Stage stage, const StageQuestion& question);
 
-/// Runs Stage::gjk, johnson, signed_volumes or algorithm_1.
+/// Runs Stage::gjk or Stage::given.
 CastResult<double> ask_gjk(Stage stage, const StageQuestion& question);
 
 /// Runs Stage::finer, in long double. The result's t_base is near.t_base.

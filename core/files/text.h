@@ -97,11 +97,20 @@ inline std::string_view bare_number(std::string_view text) {
   return text;
 }
 
-/// True if the complete text is a number, without a plus sign.
-template <class Number>
-bool read_number(std::string_view text, Number& number) {
-  const auto [end, error] = std::from_chars(text.begin(), text.end(), number);
-  return error == std::errc() && end == text.end();
+/// Removes a number without a plus sign from the beginning of a text; false if there is none.
+/// `base` is the base of a whole number, if not 10.
+template <class Number, class... Base>
+bool take_number(std::string_view& text, Number& number, Base... base) {
+  const auto [end, error] = std::from_chars(text.begin(), text.end(), number, base...);
+  if (error != std::errc()) return false;
+  text.remove_prefix(static_cast<std::size_t>(end - text.begin()));
+  return true;
+}
+
+/// True if the complete text is a number, as for take_number.
+template <class Number, class... Base>
+bool read_number(std::string_view text, Number& number, Base... base) {
+  return take_number(text, number, base...) && text.empty();
 }
 
 /// Nothing if the text is no number, or not a finite one.

@@ -10,7 +10,7 @@
 #include <span>
 #include <type_traits>
 
-#include "core/gjk/projection.h"
+#include "core/gjk/simplex.h"
 #include "core/math/bounds.h"
 #include "core/query/miss_plane.h"
 #include "core/query/observer.h"
@@ -53,7 +53,7 @@ void observe(Observer& observer, const G& Y, CastIteration<T> iteration) {
 /// Returns the least parameter at which the ray is in the shape; if the ray begins inside, the
 /// parameter of its origin. `ball` must contain the shape, and the ray must be relative to the
 /// ball's centre. `Y` is the distance subalgorithm (subalgorithm.h), which also stores the simplex.
-template <class T, class S, class Observer = NoObserver, class G = ProjectionSubalgorithm<T, 3>>
+template <class T, class S, class Observer = NoObserver, class G = Simplex<T, 3>>
 requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const RayNearBall<T>& near,
                                                         const Ball<T>& ball,
                                                         const GjkCastOptions<T>& options = {},
@@ -148,7 +148,7 @@ requires SupportMapped<S, T> CastResult<T> gjk_ray_cast(const S& shape, const Ra
     const T furthest = Y.furthest_squared();
 
     // The closest point of the simplex, and the vertices that it lies between.
-    const SubalgorithmAnswer<T, 3> closest = Y.closest();
+    const ClosestPoint<T, 3> closest = Y.closest();
     Y.keep(closest.kept);
     v = closest.v;
     show();

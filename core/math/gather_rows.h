@@ -14,26 +14,7 @@ inline constexpr std::size_t transposed_columns = 4;
 
 #if defined(__AVX2__)
 template <class W>
-requires(sizeof(W) == 32 &&
-         sizeof(Lane<W>) == 4) void transpose(const std::array<const float*, 8>& rows, W* columns) {
-  const auto both = [&](std::size_t i) {
-    return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(rows[i])),
-                                _mm_loadu_ps(rows[i + 4]), 1);
-  };
-  const __m256 a = both(0), b = both(1), c = both(2), d = both(3);
-  const __m256 ab_low = _mm256_unpacklo_ps(a, b), ab_high = _mm256_unpackhi_ps(a, b);
-  const __m256 cd_low = _mm256_unpacklo_ps(c, d), cd_high = _mm256_unpackhi_ps(c, d);
-  using Lanes = typename W::Lanes;
-  columns[0] = W(Lanes(_mm256_shuffle_ps(ab_low, cd_low, 0x44)));
-  columns[1] = W(Lanes(_mm256_shuffle_ps(ab_low, cd_low, 0xee)));
-  columns[2] = W(Lanes(_mm256_shuffle_ps(ab_high, cd_high, 0x44)));
-  columns[3] = W(Lanes(_mm256_shuffle_ps(ab_high, cd_high, 0xee)));
-}
-
-template <class W>
-requires(sizeof(W) == 32 &&
-         sizeof(Lane<W>) == 8) void transpose(const std::array<const double*, 4>& rows,
-                                              W* columns) {
+requires(sizeof(W) == 32) void transpose(const std::array<const double*, 4>& rows, W* columns) {
   const __m256d a = _mm256_loadu_pd(rows[0]), b = _mm256_loadu_pd(rows[1]);
   const __m256d c = _mm256_loadu_pd(rows[2]), d = _mm256_loadu_pd(rows[3]);
   const __m256d ab_even = _mm256_unpacklo_pd(a, b), ab_odd = _mm256_unpackhi_pd(a, b);
@@ -46,22 +27,7 @@ requires(sizeof(W) == 32 &&
 }
 #else
 template <class W>
-requires(sizeof(W) == 16 &&
-         sizeof(Lane<W>) == 4) void transpose(const std::array<const float*, 4>& rows, W* columns) {
-  __m128 a = _mm_loadu_ps(rows[0]), b = _mm_loadu_ps(rows[1]);
-  __m128 c = _mm_loadu_ps(rows[2]), d = _mm_loadu_ps(rows[3]);
-  _MM_TRANSPOSE4_PS(a, b, c, d);
-  using Lanes = typename W::Lanes;
-  columns[0] = W(Lanes(a));
-  columns[1] = W(Lanes(b));
-  columns[2] = W(Lanes(c));
-  columns[3] = W(Lanes(d));
-}
-
-template <class W>
-requires(sizeof(W) == 16 &&
-         sizeof(Lane<W>) == 8) void transpose(const std::array<const double*, 2>& rows,
-                                              W* columns) {
+requires(sizeof(W) == 16) void transpose(const std::array<const double*, 2>& rows, W* columns) {
   using Lanes = typename W::Lanes;
   for (int k = 0; k < 4; k += 2) {
     const __m128d a = _mm_loadu_pd(rows[0] + k), b = _mm_loadu_pd(rows[1] + k);
@@ -74,7 +40,7 @@ requires(sizeof(W) == 16 &&
 inline constexpr std::size_t transposed_columns = 1;
 
 template <class W>
-void transpose(const std::array<const Lane<W>*, LaneOf<W>::count>& rows, W* columns) {
+void transpose(const std::array<const double*, LaneOf<W>::count>& rows, W* columns) {
   for (int i = 0; i < LaneOf<W>::count; ++i)
     columns[0].set_lane(i, *rows[static_cast<std::size_t>(i)]);
 }
@@ -84,16 +50,16 @@ void transpose(const std::array<const Lane<W>*, LaneOf<W>::count>& rows, W* colu
 
 /// Returns the first `count` numbers of the row `index`. `count` must be a multiple of 4, `index` a
 /// small integer. Row 0 begins at `table`; rows are `row_size` numbers apart.
-template <std::size_t count, std::floating_point W>
-std::array<W, count> gather_row(W index, const W* table, std::size_t row_size) {
-  std::array<W, count> columns;
+template <std::size_t count>
+std::array<double, count> gather_row(double index, const double* table, std::size_t row_size) {
+  std::array<double, count> columns;
   std::memcpy(columns.data(), table + static_cast<std::size_t>(index) * row_size, sizeof(columns));
   return columns;
 }
 
 /// Same, with one row per lane.
 template <std::size_t count, class W>
-requires(LaneOf<W>::count > 1) std::array<W, count> gather_row(const W& index, const Lane<W>* table,
+requires(LaneOf<W>::count > 1) std::array<W, count> gather_row(const W& index, const double* table,
                                                                std::size_t row_size) {
   static_assert(count % detail::transposed_columns == 0);
   const auto row = [&](int lane) {
@@ -101,16 +67,16 @@ requires(LaneOf<W>::count > 1) std::array<W, count> gather_row(const W& index, c
   };
   std::array<W, count> columns;
   if (all(index == W(index.lane(0)))) {
-    const Lane<W>* const same = row(0);
+    const double* const same = row(0);
     for (std::size_t k = 0; k < count; ++k) columns[k] = W(same[k]);
     return columns;
   }
-  std::array<const Lane<W>*, LaneOf<W>::count> rows;
+  std::array<const double*, LaneOf<W>::count> rows;
   for (int lane = 0; lane < LaneOf<W>::count; ++lane)
     rows[static_cast<std::size_t>(lane)] = row(lane);
   for (std::size_t k = 0; k < count; k += detail::transposed_columns) {
     detail::transpose<W>(rows, columns.data() + k);
-    for (const Lane<W>*& at : rows) at += detail::transposed_columns;
+    for (const double*& at : rows) at += detail::transposed_columns;
   }
   return columns;
 }

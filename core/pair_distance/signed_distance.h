@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "core/pair/contact_shape.h"
+#include "core/support/named_kind.h"
 
 namespace minkray {
 
@@ -21,17 +22,7 @@ enum class SignedStatus : unsigned char {
 };
 
 constexpr std::string_view name_of(SignedStatus status) {
-  switch (status) {
-    case SignedStatus::separated:
-      return "separated";
-    case SignedStatus::touching:
-      return "touching";
-    case SignedStatus::overlapping:
-      return "overlapping";
-    case SignedStatus::undecided:
-      break;
-  }
-  return "undecided";
+  return name_at({"separated", "touching", "overlapping", "undecided"}, status);
 }
 
 struct SignedDistance {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "core/pair_distance/signed_distance.h"
+#include "core/support/named_kind.h"
 
 namespace minkray {
 
@@ -26,17 +27,7 @@ enum class ImpactStatus : unsigned char {
 };
 
 constexpr std::string_view name_of(ImpactStatus status) {
-  switch (status) {
-    case ImpactStatus::miss:
-      return "miss";
-    case ImpactStatus::hit:
-      return "hit";
-    case ImpactStatus::inside:
-      return "inside";
-    case ImpactStatus::undecided:
-      break;
-  }
-  return "undecided";
+  return name_at({"miss", "hit", "inside", "undecided"}, status);
 }
 
 /// Result of the search for the first contact of bodies A and B. A contact at time 0 after which

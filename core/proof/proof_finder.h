@@ -123,7 +123,7 @@ class Finder {
     for (const double delta : tilts)
       for (int i = 0; i < tilt_directions; ++i) see(n + delta * around(n, i));
     // Finds the nearest triangle. If it is not near enough, adds support points near this triangle.
-    ClosestPoint<Long> best;
+    ClosestPoint<Long, 3> best;
     Long best_squared = std::numeric_limits<Long>::infinity();
     std::array<std::size_t, 3> corners{};
     // A triangle can be nearer than the best point only if a corner lies before the plane through
@@ -131,8 +131,8 @@ class Finder {
     const auto is_before = [&](std::size_t i) { return seen[i].y.dot(best.v) < best_squared; };
     const auto try_triangle = [&](std::size_t i, std::size_t j, std::size_t k) {
       if (!is_before(k) && !is_before(j) && !is_before(i)) return;
-      const SimplexPoints<Long> triangle{{seen[i].y, seen[j].y, seen[k].y}, 3};
-      const ClosestPoint<Long> closest = closest_point(triangle);
+      const SimplexPoints<Long> triangle = {seen[i].y, seen[j].y, seen[k].y};
+      const ClosestPoint<Long, 3> closest = closest_point(triangle, 0b111);
       const Long squared = closest.v.squaredNorm();
       if (!(squared < best_squared)) return;
       best = closest;

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "core/gjk/projection.h"
+#include "core/gjk/simplex.h"
 #include "core/proof/certificate.h"
 
 namespace minkray {
@@ -78,8 +78,8 @@ class SpannedPoint {
   }
 
  private:
-  ProjectionSubalgorithm<long double, 3> simplex_;
-  SubalgorithmAnswer<long double, 3> closest_;
+  Simplex<long double, 3> simplex_;
+  ClosestPoint<long double, 3> closest_;
   std::array<Vec3<double>, 4> directions_;
   long double squared_ = std::numeric_limits<long double>::infinity();
 };

@@ -2,6 +2,7 @@
 // Reports the steps of a solver, one call per iteration: for traces, pictures and heatmaps.
 #pragma once
 
+#include <functional>
 #include <span>
 
 #include "core/math/vec.h"
@@ -19,6 +20,8 @@ struct CastIteration {
   Vec3<T> w;  ///< x - p
   std::span<const Vec3<T>> simplex;  ///< the support points kept after the iteration
 };
+
+using CastObserver = std::function<void(const CastIteration<double>&)>;
 
 /// Ignores all iterations, at no cost.
 struct NoObserver {

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "core/math/vec.h"
+#include "core/support/named_kind.h"
 
 namespace minkray {
 
@@ -16,17 +17,7 @@ enum class Status : unsigned char {
 };
 
 constexpr std::string_view name_of(Status status) {
-  switch (status) {
-    case Status::hit:
-      return "hit";
-    case Status::miss:
-      return "miss";
-    case Status::inside:
-      return "inside";
-    case Status::exhausted:
-      return "exhausted";
-  }
-  return "unknown";
+  return name_at({"hit", "miss", "inside", "exhausted"}, status);
 }
 
 /// Stage of a cast that gave the result (docs/rays.md).
@@ -42,17 +33,7 @@ enum class Path : unsigned char {
 inline constexpr std::size_t path_count = 4;
 
 constexpr std::string_view name_of(Path path) {
-  switch (path) {
-    case Path::filter:
-      return "filter";
-    case Path::model:
-      return "model";
-    case Path::gjk:
-      return "gjk";
-    case Path::finer:
-      return "finer";
-  }
-  return "unknown";
+  return name_at({"filter", "model", "gjk", "finer"}, path);
 }
 
 /// Result of every ray cast. All vectors are in the frame of the ray that was cast.

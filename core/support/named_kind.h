@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <initializer_list>
 #include <iterator>
 #include <stdexcept>
 #include <string>
@@ -19,6 +20,13 @@ struct NamedKind {
   E kind;
   std::string_view name, doc;
 };
+
+/// Returns the name of a value; `names` has one per value, in order.
+template <class E>
+constexpr std::string_view name_at(std::initializer_list<std::string_view> names, E kind) {
+  const auto i = static_cast<std::size_t>(kind);
+  return i < names.size() ? names.begin()[i] : "unknown";
+}
 
 /// Returns the row with this name, or null if the table has no such row.
 template <class Table>

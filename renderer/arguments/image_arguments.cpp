@@ -19,6 +19,7 @@
 #include "renderer/io/output_file.h"
 #include "renderer/json/json.h"
 #include "renderer/json/mistakes.h"
+#include "renderer/paper/solvers.h"
 #include "renderer/scene/calibrated_camera.h"
 
 namespace minkray {
@@ -203,10 +204,10 @@ RenderOptions ImageArguments::render_options(const Scene& loaded, std::size_t pa
 }
 
 CastOptions cast_options(const std::string& solver, const std::string& option) {
-  const SolverDescription* const known = row_named(solver_descriptions, solver);
+  const NamedSolver* const known = row_named(named_solvers, solver);
   if (!known)
-    throw WrongUsage(option + ": must be one of " + listed(names_in(solver_descriptions)) +
-                     " (got " + solver + ")");
+    throw WrongUsage(option + ": must be one of " + listed(names_in(named_solvers)) + " (got " +
+                     solver + ")");
   CastOptions options;
   options.solver = known->kind;
   return options;

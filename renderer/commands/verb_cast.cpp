@@ -17,6 +17,7 @@
 #include "renderer/cli/options.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/jobs/scene_queries.h"
+#include "renderer/paper/solvers.h"
 #include "renderer/query/answer.h"
 #include "renderer/query/query_json.h"
 
@@ -173,8 +174,8 @@ void answer_line(const Line& line, const std::string& place, MeshFiles& meshes,
 
 ExitCode cast(const CastVerbOptions& options) {
   check_tolerance(options.tolerance);
-  const AnswerOptions answer_options{kind_named(solver_descriptions, options.solver),
-                                     kind_named(subalgorithm_descriptions, options.subalgorithm),
+  const AnswerOptions answer_options{kind_named(named_solvers, options.solver),
+                                     kind_named(named_subalgorithms, options.subalgorithm),
                                      options.tolerance, options.trace, options.certify};
 
   std::ifstream file;
@@ -260,7 +261,7 @@ void add_cast(Parser& parser, ExitCode& exit_code) {
       .reads_file();
   add_solver_option(verb, options->solver);
   verb.add_option("--subalgorithm", options->subalgorithm, "Distance subalgorithm of GJK")
-      .one_of(names_in(subalgorithm_descriptions))
+      .one_of(names_in(named_subalgorithms))
       .show_default();
   add_tolerance(verb, options->tolerance);
   verb.add_option("-t,--threads", options->threads, "Threads; 0: one per core")

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "renderer/arguments/choices.h"
+#include "renderer/claims/panels.h"
 #include "renderer/cli/file_ending.h"
 #include "renderer/cli/options.h"
 #include "renderer/cli/verbs.h"
@@ -12,7 +13,6 @@
 #include "renderer/json/object_reader.h"
 #include "renderer/json/parse.h"
 #include "renderer/member_json/shape_json.h"
-#include "renderer/paper/panels.h"
 
 namespace minkray {
 namespace {
@@ -43,8 +43,8 @@ void distance_2d(const Distance2DVerbOptions& options) {
   throw_if_any(mistakes);
   options.files->read(meshes.meshes());
   DistanceResult<double, 2> result;
-  const std::string svg = distance_panels_svg(
-      *a, *b, kind_named(subalgorithm_descriptions, options.subalgorithm), result);
+  const std::string svg =
+      distance_panels_svg(*a, *b, kind_named(named_subalgorithms, options.subalgorithm), result);
   write_file(options.out, svg);
   std::cout << name_of(result.status) << ", distance " << result.distance << " after "
             << result.iterations << " iterations\n";
@@ -63,7 +63,7 @@ void add_distance_2d(Parser& parser, ExitCode&) {
       .reads_file();
   verb.add_option("-o,--output", options->out, "SVG file to write").required().writes_file();
   verb.add_option("--subalgorithm", options->subalgorithm, "Distance subalgorithm of GJK")
-      .one_of(names_in(subalgorithm_descriptions))
+      .one_of(names_in(named_subalgorithms))
       .show_default();
   verb.on_call([options] { distance_2d(*options); });
 }

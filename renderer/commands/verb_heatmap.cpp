@@ -25,7 +25,7 @@ struct HeatmapVerbOptions {
 };
 
 HeatChannel channel_of(const std::string& name) {
-  if (const HeatChannelDescription* known = row_named(heat_channels, name)) return known->channel;
+  if (const HeatChannelDescription* known = row_named(heat_channels, name)) return known->kind;
   throw WrongUsage("--channel: must be one of " + listed(names_in(heat_channels)) + " (got " +
                    name + ")");
 }

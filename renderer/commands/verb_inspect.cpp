@@ -8,6 +8,7 @@
 #include "renderer/arguments/inspect_options.h"
 #include "renderer/cli/options.h"
 #include "renderer/cli/verbs.h"
+#include "renderer/paper/solvers.h"
 
 namespace minkray {
 
@@ -37,7 +38,7 @@ void add_inspect(Parser& parser, ExitCode& exit_code) {
       .show_default();
   add_solver_option(verb, image.solver);
   verb.add_option("--beside", options->beside, "Second solver, shown for comparison")
-      .one_of(names_in(solver_descriptions))
+      .one_of(names_in(named_solvers))
       .show_default();
   verb.add_option("--pairs", options->pairs, "Number of object pairs whose distance the page shows")
       .between(std::size_t{0}, std::size_t{1000})

@@ -7,10 +7,10 @@
 #include <span>
 
 #include "renderer/base/errors.h"
+#include "renderer/claims/claim.h"
 #include "renderer/cli/options.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/io/output_file.h"
-#include "renderer/paper/claim.h"
 
 namespace minkray {
 namespace {

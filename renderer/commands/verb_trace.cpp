@@ -11,12 +11,13 @@
 #include "renderer/arguments/image_arguments.h"
 #include "renderer/arguments/import_arguments.h"
 #include "renderer/base/errors.h"
+#include "renderer/claims/trace_picture.h"
 #include "renderer/cli/file_ending.h"
 #include "renderer/cli/options.h"
 #include "renderer/cli/verbs.h"
 #include "renderer/io/output_file.h"
 #include "renderer/json/number_json.h"
-#include "renderer/paper/trace_picture.h"
+#include "renderer/paper/solvers.h"
 #include "renderer/rays/camera.h"
 #include "renderer/scene/scene_instances.h"
 
@@ -86,7 +87,7 @@ void trace(const TraceVerbOptions& options) {
   const Ray<double> through = Camera(scene.camera, size).ray(x + 0.5, y + 0.5);
   const Ray<double> ray{through.origin, through.direction};
   CastOptions cast;
-  cast.solver = kind_named(solver_descriptions, options.solver);
+  cast.solver = kind_named(named_solvers, options.solver);
   std::vector<PreparedShape> shapes;
   std::vector<std::size_t> objects;  // number of each shape's object
   std::vector<std::uint32_t> parts;  // number of the triangle, if the object is a mesh

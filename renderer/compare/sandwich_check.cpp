@@ -80,19 +80,7 @@ void record(CompareReport& report, const Verdict& verdict, const Ray<double>& ra
 }  // namespace
 
 std::string_view name_of(Violation kind) {
-  switch (kind) {
-    case Violation::false_hit:
-      return "false hit";
-    case Violation::false_miss:
-      return "false miss";
-    case Violation::early:
-      return "early";
-    case Violation::late:
-      return "late";
-    case Violation::gave_up:
-      return "gave up";
-  }
-  return "unknown";
+  return name_at({"false hit", "false miss", "early", "late", "gave up"}, kind);
 }
 
 int CompareReport::total_violations() const {

@@ -129,7 +129,7 @@ Image heat_picture(const std::vector<HeatPanel>& panels, HeatChannel channel) {
     draw_status_legend(image, layout);
   } else {
     for (const HeatChannelDescription& description : heat_channels)
-      if (description.channel == channel) draw_scale(image, layout, most, description.unit);
+      if (description.kind == channel) draw_scale(image, layout, most, description.unit);
   }
   return image;
 }

@@ -16,7 +16,7 @@ namespace minkray {
 enum class HeatChannel { iterations, supports, nodes, path, status };
 
 struct HeatChannelDescription {
-  HeatChannel channel;
+  HeatChannel kind;
   std::string_view name;
   std::string_view unit;
   std::string_view doc;

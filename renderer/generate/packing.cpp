@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "renderer/shape_cast/distance.h"
+#include "renderer/paper/distance.h"
 
 namespace minkray {
 namespace {

@@ -6,22 +6,18 @@
 #include <string_view>
 
 #include "core/math/vec.h"
+#include "core/support/named_kind.h"
 
 namespace minkray {
 
 enum class ToneMap : unsigned char { srgb, filmic, agx };
 
-struct ToneMapDescription {
-  ToneMap kind;
-  std::string_view name, doc;
-};
-
 /// The list of all there are.
 inline constexpr std::array tone_maps = {
-    ToneMapDescription{ToneMap::srgb, "srgb", "clipped at white"},
-    ToneMapDescription{ToneMap::filmic, "filmic",
+    NamedKind<ToneMap>{ToneMap::srgb, "srgb", "clipped at white"},
+    NamedKind<ToneMap>{ToneMap::filmic, "filmic",
                        "bright light rolls off as on film (ACES, after Narkowicz 2015)"},
-    ToneMapDescription{ToneMap::agx, "agx",
+    NamedKind<ToneMap>{ToneMap::agx, "agx",
                        "bright colours fade to white (AgX by Sobotka, after Wrensch 2023)"},
 };
 

@@ -8,13 +8,13 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <random>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include "core/files/text.h"
 #include "renderer/base/errors.h"
 
 namespace minkray {
@@ -54,8 +54,7 @@ std::string decoded(std::string_view text) {
   std::string result;
   for (std::size_t i = 0; i < text.size(); ++i) {
     unsigned code = 0;
-    if (text[i] == '%' && i + 2 < text.size() &&
-        std::from_chars(&text[i + 1], &text[i + 1] + 2, code, 16).ptr == &text[i + 1] + 2) {
+    if (text[i] == '%' && i + 2 < text.size() && read_number(text.substr(i + 1, 2), code, 16)) {
       result += static_cast<char>(code);
       i += 2;
     } else {

@@ -15,6 +15,7 @@
 #include "renderer/io/deflate.h"
 #include "renderer/io/image_file.h"
 #include "renderer/json/number_json.h"
+#include "renderer/paper/solvers.h"
 #include "renderer/rays/camera.h"
 #include "renderer/scene/scene_instances.h"
 
@@ -52,14 +53,14 @@ void put(std::string& page, std::string_view mark, std::string_view text) {
 Json solvers_json(const std::vector<InspectedSolver>& solvers) {
   Json list = Json::array();
   for (const InspectedSolver& solver : solvers)
-    if (const SolverDescription* known = row_named(solver_descriptions, solver.name))
+    if (const NamedSolver* known = row_named(named_solvers, solver.name))
       list.push_back({{"name", solver.name}, {"doc", std::string(known->doc)}});
   return list;
 }
 
 Json all_solvers_json() {
   Json list = Json::array();
-  for (const SolverDescription& description : solver_descriptions)
+  for (const auto& description : named_solvers)
     list.push_back(
         {{"name", std::string(description.name)}, {"doc", std::string(description.doc)}});
   return list;

@@ -7,9 +7,9 @@
 #include "renderer/inspect/replay.h"
 #include "renderer/inspect/shape_mesh.h"
 #include "renderer/json/number_json.h"
+#include "renderer/paper/distance.h"
+#include "renderer/paper/shape_cast.h"
 #include "renderer/scene/scene_instances.h"
-#include "renderer/shape_cast/distance.h"
-#include "renderer/shape_cast/shape_cast.h"
 
 namespace minkray {
 namespace {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "renderer/json/json.h"
-#include "renderer/query/trace.h"
+#include "renderer/paper/trace.h"
 
 namespace minkray {
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/world/world.h"
-#include "renderer/query/trace.h"
+#include "renderer/paper/trace.h"
 #include "renderer/scene/scene.h"
 
 namespace minkray {

@@ -12,6 +12,7 @@
 #include "renderer/inspect/replay_lines.h"
 #include "renderer/inspect/shape_mesh.h"
 #include "renderer/io/image_file.h"
+#include "renderer/paper/solvers.h"
 #include "renderer/rays/camera.h"
 #include "renderer/scene/scene_instances.h"
 
@@ -102,7 +103,7 @@ const std::vector<InspectedSolver>& ServedScene::solvers_for(const Asked& asked)
     if (kept.solver == solver && kept.tolerance == tolerance) return kept.solvers;
   std::vector<InspectedSolver> made;
   const auto make = [&](const std::string& name) {
-    const SolverDescription* const known = row_named(solver_descriptions, name);
+    const NamedSolver* const known = row_named(named_solvers, name);
     if (!known) throw BadInput("solver: is unknown");
     CastOptions of_solver;
     of_solver.solver = known->kind;

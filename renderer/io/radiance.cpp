@@ -3,11 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "core/files/text.h"
 
 namespace minkray {
 namespace {
@@ -69,11 +70,7 @@ class RadianceReader {
     int number = 0;
     if (text.starts_with(name)) {
       text.remove_prefix(name.size());
-      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-      if (error == std::errc() && number >= 0) {
-        text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-        return number;
-      }
+      if (take_number(text, number) && number >= 0) return number;
     }
     wrong("must give its size as -Y HEIGHT +X WIDTH: rows from the top, each from the left");
   }

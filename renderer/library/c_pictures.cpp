@@ -114,7 +114,7 @@ RenderOptions render_options(const Scene& scene, const minkray_picture_options& 
   options.samples = static_cast<int>(checked(given.samples, 16, most_samples, "options.samples"));
   options.seed = given.seed;
   const std::string name(given.integrator ? given.integrator : integrators.front().name);
-  const IntegratorDescription* const chosen = row_named(integrators, name);
+  const auto* const chosen = row_named(integrators, name);
   if (!chosen)
     wrong_use("options.integrator: must be one of " + listed(names_in(integrators)) + " (got \"" +
               printable(name, 60) + "\")");

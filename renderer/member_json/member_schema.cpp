@@ -2,6 +2,7 @@
 // Numbers and lists of them as JSON and as JSON Schema.
 #include <cmath>
 
+#include "core/support/named_kind.h"
 #include "renderer/json/limits.h"
 #include "renderer/member_json/member_codec.h"
 
@@ -12,15 +13,7 @@ Json to_json(const Vec3<double>& vector) {
 }
 
 std::string_view name_of(Unit unit) {
-  switch (unit) {
-    case Unit::none:
-      return "";
-    case Unit::length:
-      return "length";
-    case Unit::degrees:
-      return "degrees";
-  }
-  return "";
+  return name_at({"", "length", "degrees"}, unit);
 }
 
 Json schema_of_list(const Json& item, std::size_t count) {

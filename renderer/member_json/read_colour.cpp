@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/member_json/read_colour.h"
 
-#include <charconv>
-
+#include "core/files/text.h"
 #include "renderer/image/colour.h"
 #include "renderer/json/values.h"
 #include "renderer/member_json/member_codec.h"
@@ -14,9 +13,7 @@ std::optional<Colour> colour_of_hex(std::string_view text) {
   Colour colour;
   for (std::size_t i = 0; i < 3; ++i) {
     unsigned code = 0;
-    const char* const begin = text.data() + 1 + 2 * i;
-    const auto [end, error] = std::from_chars(begin, begin + 2, code, 16);
-    if (error != std::errc() || end != begin + 2) return std::nullopt;
+    if (!read_number(text.substr(1 + 2 * i, 2), code, 16)) return std::nullopt;
     colour[static_cast<Eigen::Index>(i)] = from_srgb(code / 255.0);
   }
   return colour;

@@ -5,6 +5,7 @@
 #include <array>
 #include <string_view>
 
+#include "core/support/named_kind.h"
 #include "renderer/rays/ray_observer.h"
 
 namespace minkray {
@@ -12,23 +13,18 @@ namespace minkray {
 /// Rendering method: the light that a picture shows.
 enum class IntegratorKind : unsigned char { automatic, path, direct, ambient, normals };
 
-struct IntegratorDescription {
-  IntegratorKind kind;
-  std::string_view name, doc;
-};
-
 /// All rendering methods.
 inline constexpr std::array integrators = {
-    IntegratorDescription{
+    NamedKind<IntegratorKind>{
         IntegratorKind::automatic, "auto",
         "path if a material or a light (image sky, sun sky) needs path tracing; otherwise ambient"},
-    IntegratorDescription{IntegratorKind::path, "path", "path tracing of all light; unbiased"},
-    IntegratorDescription{IntegratorKind::direct, "direct",
-                          "direct light from lights and emissive objects"},
-    IntegratorDescription{
+    NamedKind<IntegratorKind>{IntegratorKind::path, "path", "path tracing of all light; unbiased"},
+    NamedKind<IntegratorKind>{IntegratorKind::direct, "direct",
+                              "direct light from lights and emissive objects"},
+    NamedKind<IntegratorKind>{
         IntegratorKind::ambient, "ambient",
         "direct light and diffuse bounces (--bounces); after the last bounce, ambient occlusion"},
-    IntegratorDescription{IntegratorKind::normals, "normals", "surface normals as colours"},
+    NamedKind<IntegratorKind>{IntegratorKind::normals, "normals", "surface normals as colours"},
 };
 
 /// Kinds of light to follow, and how far.

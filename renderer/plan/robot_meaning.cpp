@@ -2,7 +2,6 @@
 #include "renderer/plan/robot_meaning.h"
 
 #include <algorithm>
-#include <charconv>
 #include <set>
 #include <sstream>
 

@@ -6,10 +6,10 @@
 #include "core/pair_distance/signed_distance.h"
 #include "core/pair_motion/impact.h"
 #include "renderer/json/number_json.h"
-#include "renderer/query/trace.h"
-#include "renderer/shape_cast/distance.h"
-#include "renderer/shape_cast/rotating_cast.h"
-#include "renderer/shape_cast/shape_cast.h"
+#include "renderer/paper/distance.h"
+#include "renderer/paper/rotating_cast.h"
+#include "renderer/paper/shape_cast.h"
+#include "renderer/paper/trace.h"
 
 namespace minkray {
 namespace {
@@ -90,13 +90,9 @@ void solve(const RayQuery& query, const AnswerOptions& options, Answer& answer) 
 }
 
 void solve_turning(const ShapeQuery& query, const AnswerOptions& options, Answer& answer) {
-  const auto body = [](const Shape& shape, const Vec3<double>& velocity, const Vec3<double>& turn) {
-    return MovingBody{shape, {}, velocity, turn};
-  };
-  const RotatingCastResult result =
-      cast_rotating(body(query.obstacle, query.obstacle_direction, query.obstacle_turn),
-                    body(query.moving, query.direction, query.turn), query.t_max, query.steps,
-                    cast_options(options));
+  const RotatingCastResult result = cast_rotating(
+      query.obstacle, {{}, query.obstacle_direction, query.obstacle_turn}, query.moving,
+      {{}, query.direction, query.turn}, query.t_max, query.steps, cast_options(options));
   const bool found = result.status == Status::hit || result.status == Status::inside;
   answer.facts.status = name_of(result.status);
   answer.facts.hit = found;

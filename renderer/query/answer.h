@@ -7,15 +7,15 @@
 #include <vector>
 
 #include "core/cast/cast.h"
-#include "core/gjk/subalgorithm.h"
 #include "core/proof/check_certificate.h"
 #include "renderer/json/json.h"
+#include "renderer/paper/subalgorithm.h"
 #include "renderer/query/query.h"
 
 namespace minkray {
 
 struct AnswerOptions {
-  SolverKind solver = SolverKind::automatic;
+  const Solver* solver = &solver::automatic;
   SubalgorithmKind subalgorithm = SubalgorithmKind::projection;  ///< for distances
   double tolerance = 1e-10;  ///< of signed distances, relative to the shapes' sizes
   bool trace = false;

@@ -2,10 +2,11 @@
 #include "renderer/scene/sun_position.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <string_view>
+
+#include "core/files/text.h"
 
 namespace minkray {
 namespace {
@@ -13,12 +14,9 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 
 /// Removes `digits` digits from the beginning of a text; -1 if there are fewer.
-int take_number(std::string_view& text, std::size_t digits) {
+int take_digits(std::string_view& text, std::size_t digits) {
   int number = -1;
-  if (text.size() < digits) return -1;
-  const char* const end = text.data() + digits;
-  const auto [rest, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc() || rest != end || number < 0) return -1;
+  if (text.size() < digits || !read_number(text.substr(0, digits), number) || number < 0) return -1;
   text.remove_prefix(digits);
   return number;
 }
@@ -49,9 +47,9 @@ std::optional<int> zone(std::string_view text) {
   if (text == "Z") return 0;
   const bool is_west = take(text, '-');
   if (!is_west && !take(text, '+')) return std::nullopt;
-  const int hours = take_number(text, 2);
+  const int hours = take_digits(text, 2);
   const bool has_colon = take(text, ':');
-  const int minutes = take_number(text, 2);
+  const int minutes = take_digits(text, 2);
   if (hours < 0 || hours > 14 || !has_colon || minutes < 0 || minutes > 59 || !text.empty())
     return std::nullopt;
   return (is_west ? -1 : 1) * (60 * hours + minutes);
@@ -61,16 +59,16 @@ std::optional<int> zone(std::string_view text) {
 
 std::optional<double> days_since_2000(const std::string& time) {
   std::string_view text = time;
-  const int year = take_number(text, 4);
+  const int year = take_digits(text, 4);
   bool is_well_formed = take(text, '-');
-  const int month = take_number(text, 2);
+  const int month = take_digits(text, 2);
   is_well_formed = is_well_formed && take(text, '-');
-  const int day = take_number(text, 2);
+  const int day = take_digits(text, 2);
   is_well_formed = is_well_formed && take(text, 'T');
-  const int hour = take_number(text, 2);
+  const int hour = take_digits(text, 2);
   is_well_formed = is_well_formed && take(text, ':');
-  const int minute = take_number(text, 2);
-  const int second = take(text, ':') ? take_number(text, 2) : 0;
+  const int minute = take_digits(text, 2);
+  const int second = take(text, ':') ? take_digits(text, 2) : 0;
   if (!is_well_formed || year < 1583 || month < 1 || month > 12 || day < 1 ||
       day > days_of_month(year, month) || hour < 0 || hour > 23 || minute < 0 || minute > 59 ||
       second < 0 || second > 59)

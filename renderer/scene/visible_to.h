@@ -5,6 +5,7 @@
 #include <array>
 #include <string_view>
 
+#include "core/support/named_kind.h"
 #include "core/world/instances.h"
 
 namespace minkray {
@@ -12,13 +13,7 @@ namespace minkray {
 /// Kinds of rays in pictures, as bits of RayKinds.
 inline constexpr RayKinds camera_rays = 1, shadow_rays = 2, scattered_rays = 4;
 
-struct RayKindsName {
-  RayKinds kinds;
-  std::string_view name;
-  std::string_view doc;
-};
-
-inline constexpr std::array<RayKindsName, 3> ray_kinds_names = {{
+inline constexpr std::array<NamedKind<RayKinds>, 3> ray_kinds_names = {{
     {camera_rays, "camera", "visible to the camera"},
     {shadow_rays, "shadow", "casts shadows"},
     {scattered_rays, "scattered", "visible in mirrors, through glass and to scattered light"},

@@ -34,14 +34,14 @@ RayKinds read_visible_to(ObjectReader& object) {
   for (std::size_t i = 0; i < json->size(); ++i) {
     const auto name = read_string((*json)[i], path / i, mistakes);
     if (!name) continue;
-    const RayKindsName* known = row_named(ray_kinds_names, *name);
+    const auto* known = row_named(ray_kinds_names, *name);
     if (!known) {
       mistakes.add(path / i, "must be the name of rays (" + found((*json)[i]) + "; " +
                                  suggestion(*name, names_in(ray_kinds_names)) + ")");
-    } else if (kinds & known->kinds) {
+    } else if (kinds & known->kind) {
       mistakes.add(path / i, "duplicate (" + found((*json)[i]) + " again)");
     } else {
-      kinds = static_cast<RayKinds>(kinds | known->kinds);
+      kinds = static_cast<RayKinds>(kinds | known->kind);
     }
   }
   return kinds;
@@ -62,14 +62,14 @@ void check_visible(const Scene& scene, std::uint32_t material, RayKinds visible_
 void write_visible_to(Json& object, RayKinds visible_to) {
   if (visible_to == all_ray_kinds) return;
   Json names = Json::array();
-  for (const RayKindsName& known : ray_kinds_names)
-    if (visible_to & known.kinds) names.push_back(std::string(known.name));
+  for (const auto& known : ray_kinds_names)
+    if (visible_to & known.kind) names.push_back(std::string(known.name));
   object[std::string(key)] = std::move(names);
 }
 
 Json visible_to_schema() {
   std::string doc = "the rays that hit it; others pass through; by default all";
-  for (const RayKindsName& known : ray_kinds_names)
+  for (const auto& known : ray_kinds_names)
     doc += "; " + std::string(known.name) + ": " + std::string(known.doc);
   return {{"type", "array"},
           {"description", doc},

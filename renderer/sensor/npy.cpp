@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cstdint>
 #include <cstring>
 
 #include "core/files/regular_file.h"
+#include "core/files/text.h"
 #include "renderer/base/errors.h"
 #include "renderer/base/of_file.h"
 
@@ -57,15 +57,15 @@ NpyArray parse(const std::string& bytes) {
   std::string_view shape = after(header, "shape");
   shape = shape.substr(0, shape.find(')'));
   std::size_t count = 1;
-  for (const char* at = shape.data() + 1; at < shape.data() + shape.size();) {
+  while (!shape.empty()) {
     std::size_t size = 0;
-    const auto [next, error] = std::from_chars(at, shape.data() + shape.size(), size);
-    if (error == std::errc()) {
-      array.shape.push_back(size);
-      if (size != 0 && count > most_bytes / size) throw BadInput("is larger than can be read");
-      count *= size;
+    if (!take_number(shape, size)) {
+      shape.remove_prefix(1);
+      continue;
     }
-    at = error == std::errc() ? next : at + 1;
+    array.shape.push_back(size);
+    if (size != 0 && count > most_bytes / size) throw BadInput("is larger than can be read");
+    count *= size;
   }
   if (first_index_is_fastest && array.shape.size() > 2)
     throw BadInput("must be in C order (numpy.ascontiguousarray)");

@@ -8,6 +8,7 @@
 #include "renderer/base/build.h"
 #include "renderer/base/errors.h"
 #include "renderer/json/json.h"
+#include "renderer/paper/solvers.h"
 
 namespace minkray {
 namespace {
@@ -45,7 +46,7 @@ Facts picture_facts(const Scene& scene, const World& world, const RenderOptions&
                        number(picture.y1)},
       {fact::samples, number(options.samples)},
       {fact::seed, number(options.seed)},
-      {fact::solver, std::string(name_in(solver_descriptions, world.options().solver))},
+      {fact::solver, std::string(name_in(named_solvers, world.options().solver))},
       {fact::bounces, number(options.integrator.bounces)},
       {fact::integrator, integrator_text(scene, options.integrator)},
       {fact::limits,

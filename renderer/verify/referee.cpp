@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/parallel/parallel.h"
+#include "core/support/named_kind.h"
 
 namespace minkray {
 namespace {
@@ -298,15 +299,7 @@ std::vector<Stretch> stretches_of(std::vector<Piece> pieces) {
 }  // namespace
 
 std::string_view name_of(MotionStatus status) {
-  switch (status) {
-    case MotionStatus::free:
-      return "free";
-    case MotionStatus::collides:
-      return "collides";
-    case MotionStatus::undecided:
-      break;
-  }
-  return "undecided";
+  return name_at({"free", "collides", "undecided"}, status);
 }
 
 MotionVerdict verdict_of(const JointPath& path, const std::vector<ClearanceBody>& bodies,

@@ -103,14 +103,14 @@ std::string check_ray(const Shape& shape, const PreparedShape& prepared, const R
   const auto complaint = [&](std::string_view who, const std::string& bad) {
     return "solver " + std::string(who) + ": " + bad + "\n" + as_query(shape, ray);
   };
-  for (const SolverDescription& solver : testing::accurate_solvers()) {
+  for (const auto& solver : testing::accurate_solvers()) {
     const CastOptions options{solver.kind};
     const CastResult<double> result = cast_ray(prepared, ray, options);
     if (const std::string bad = referee.check(solver.name, result); !bad.empty())
       return complaint(solver.name, bad);
     // At extreme proportions casts prove their own results, in the shape's own frame.
     const bool is_ordinary = referee.in_range() && !prepared.definition().is_extreme();
-    if (solver.kind == SolverKind::automatic && is_ordinary)
+    if (solver.kind == &solver::automatic && is_ordinary)
       if (const std::string bad = check_proof(shape, ray, result, referee.rounding()); !bad.empty())
         return complaint(solver.name, bad);
     if (const std::string bad =

@@ -23,7 +23,7 @@ CertifiedCasts& CertifiedCasts::operator+=(const CertifiedCasts& other) {
 }
 
 CertifiedCasts certified_casts(const Shape& shape, RayFamily family, int rays, std::uint64_t seed,
-                               SolverKind solver) {
+                               const Solver* solver) {
   const PreparedShape prepared(shape);
   const SupportFunction support = supports_of(shape);
   const CastOptions options{solver};

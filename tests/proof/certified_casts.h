@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/proof/check_certificate.h"
-#include "core/query/solver_kind.h"
+#include "renderer/paper/solvers.h"
 #include "tests/support/ray_families.h"
 
 namespace minkray::testing {
@@ -34,6 +34,6 @@ struct CertifiedCasts {
 
 /// Casts in T at the shape rounded to T, with rays rounded to T; proofs in double.
 CertifiedCasts certified_casts(const Shape& shape, RayFamily family, int rays, std::uint64_t seed,
-                               SolverKind solver = SolverKind::automatic);
+                               const Solver* solver = &solver::automatic);
 
 }  // namespace minkray::testing

@@ -18,6 +18,7 @@
 #include "renderer/json/json.h"
 #include "renderer/json/number_json.h"
 #include "renderer/member_json/shape_json.h"
+#include "renderer/paper/solvers.h"
 #include "tests/proof/certified_casts.h"
 #include "tests/support/sample_shapes.h"
 
@@ -36,7 +37,7 @@ std::string query_of(const std::string& name, const Shape& shape, const Ray<doub
 }
 
 CertifiedCasts prove(const SampleShape& sample, const RayFamilyDescription& family, int rays,
-                     SolverKind solver, std::ostream& out) {
+                     const Solver* solver, std::ostream& out) {
   const CertifiedCasts casts = certified_casts(sample.shape, family.family, rays, 4, solver);
   out << std::left << std::setw(44) << sample.name.substr(0, 43) << std::setw(11) << family.name
       << std::right << std::setw(9) << casts.hits << std::setw(9) << casts.misses << std::setw(8)
@@ -73,10 +74,10 @@ int main(int argc, char** argv) {
   }
   const std::string wanted = argc > 2 ? argv[2] : "";
   const std::string_view name = argc > 3 ? argv[3] : "auto";
-  const auto solver_row = std::ranges::find(solver_descriptions, name, &SolverDescription::name);
-  if (solver_row == solver_descriptions.end())
+  const auto solver_row = std::ranges::find(named_solvers, name, &NamedSolver::name);
+  if (solver_row == named_solvers.end())
     return wrong_usage("SOLVER: must be one of minkray cast --help", name);
-  const SolverKind solver = solver_row->kind;
+  const Solver* const solver = solver_row->kind;
   std::vector<SampleShape> samples;
   for (SampleShape& sample : sample_shapes())
     if (sample.name.find(wanted) != std::string::npos) samples.push_back(std::move(sample));

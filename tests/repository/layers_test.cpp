@@ -53,7 +53,7 @@ const std::vector<std::string> rooms = {
     "renderer/import/sdf",
     "renderer/import",
     "renderer/clearance",
-    "renderer/shape_cast",
+    "renderer/paper",
     "renderer/query",
     "renderer/rays",
     "renderer/surfaces",
@@ -65,7 +65,7 @@ const std::vector<std::string> rooms = {
     "renderer/share",
     "renderer/field",
     "renderer/info",
-    "renderer/paper",
+    "renderer/claims",
     "renderer/generate",
     "renderer/verify",
     "renderer/plan",
@@ -292,7 +292,7 @@ TEST(Layers, shapes_are_named_only_where_shapes_and_forms_are_defined) {
     if (file.name == "renderer/scene_json/read_split.cpp") continue;
     // Input from programs arrives there.
     if (file.name == "renderer/library/c_shapes.cpp") continue;
-    if (file.name.starts_with("renderer/paper/")) continue;  // repeats the papers' own experiments
+    if (file.name.starts_with("renderer/claims/")) continue;  // repeats the papers' own experiments
     std::smatch match;
     EXPECT_FALSE(std::regex_search(file.text, match, named))
         << file.name << " names the shape " << match.str()

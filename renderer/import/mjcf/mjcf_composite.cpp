@@ -2,9 +2,9 @@
 #include "renderer/import/mjcf/mjcf_composite.h"
 
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
+#include "core/files/text.h"
 #include "renderer/import/mesh/geometry_common.h"
 #include "renderer/import/mjcf/mjcf_composite_plan.h"
 #include "renderer/import/model/orientation.h"
@@ -96,9 +96,14 @@ class Composite {
     const std::string start = plan_.prefix + "B";
     oy = 0;
     const bool begins = name.starts_with(start);
-    const char* rest = begins ? name.c_str() + start.size() : "";
-    const bool reads =
-        is_cloth ? std::sscanf(rest, "%d_%d", &ox, &oy) == 2 : std::sscanf(rest, "%d", &ox) == 1;
+    std::string_view rest = name;
+    rest.remove_prefix(begins ? start.size() : rest.size());
+    bool reads = take_number(rest, ox);
+    if (is_cloth && reads) {
+      reads = rest.starts_with('_');
+      rest.remove_prefix(reads ? 1 : 0);
+      reads = reads && take_number(rest, oy);
+    }
     if (begins && reads && ox >= 0 && ox < plan_.count[0] && oy >= 0 && oy < plan_.count[1])
       return true;
     files_.wrong(element_, "must be in a body whose name starts with \"" + start +

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/support/named_kind.h"
 #include "renderer/import/model/orientation.h"
 
 namespace minkray {
@@ -65,21 +66,7 @@ std::size_t width_of(JointKind kind) {
 }
 
 std::string_view name_of(JointKind kind) {
-  switch (kind) {
-    case JointKind::fixed:
-      return "fixed";
-    case JointKind::hinge:
-      return "hinge";
-    case JointKind::slide:
-      return "slide";
-    case JointKind::planar:
-      return "planar";
-    case JointKind::ball:
-      return "ball";
-    case JointKind::free:
-      return "free";
-  }
-  return "unknown";
+  return name_at({"fixed", "hinge", "slide", "ball", "free", "planar"}, kind);
 }
 
 void Model::pass_over(const std::string& what, const std::string& why, std::size_t count) {

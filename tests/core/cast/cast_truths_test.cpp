@@ -48,7 +48,7 @@ void for_rays(int count, const Visit& visit) {
     const double spread = aimed.spread_for_half(
         [&](const Ray<double>& ray) { return cast_ray(prepared, ray).found(); });
     int rays = 0, hits = 0;
-    for (const SolverDescription& solver : accurate_solvers()) {
+    for (const auto& solver : accurate_solvers()) {
       SCOPED_TRACE(sample.name + ", solver " + std::string(solver.name));
       for (int i = 0; i < count; ++i, ++rays)
         hits += visit(SolidQuery{sample.shape,
@@ -146,7 +146,7 @@ TEST(CastTruths, a_ray_from_within_says_inside) {
     Vec3<double> centre = Vec3<double>::Zero();
     constexpr int directions = 64;
     for (int i = 0; i < directions; ++i) centre += shape.support(random.direction()) / directions;
-    for (const SolverDescription& solver : accurate_solvers())
+    for (const auto& solver : accurate_solvers())
       for (int i = 0; i < 20; ++i) {
         const Vec3<double> side = i == 0 ? centre : shape.support(random.direction()),
                            origin = 0.5 * (centre + side);
@@ -163,7 +163,7 @@ TEST(CastTruths, a_ray_from_within_says_inside) {
 /// a right one.
 TEST(CastTruths, rays_at_the_corners_and_along_the_faces_of_a_box_are_answered) {
   const PreparedShape box(Box{{1, 1, 1}});
-  for (const SolverDescription& solver : accurate_solvers()) {
+  for (const auto& solver : accurate_solvers()) {
     const CastOptions options{solver.kind};
     for (int x = -2; x <= 2; ++x)
       for (int y = -2; y <= 2; ++y)

@@ -89,7 +89,7 @@ Queries queries_of(const Shape& plain, int count, double distance, double scale)
   return all;
 }
 
-Outcome ask(const Queries& all, SolverKind solver) {
+Outcome ask(const Queries& all, const Solver* solver) {
   const double unit = all.radius * epsilon_of_double;
   const PreparedShape prepared(all.shape);
   Outcome outcome;
@@ -141,7 +141,7 @@ void expect_agreement(int count, double distance, double scale) {
   for (const SampleShape& sample : sample_shapes()) {
     if (!has_closed_form(sample.shape)) continue;
     const Queries queries = queries_of(sample.shape, count, distance, scale);
-    for (const SolverDescription& solver : accurate_solvers()) {
+    for (const auto& solver : accurate_solvers()) {
       const std::string what = sample.name + ", solver " + std::string(solver.name);
       const Outcome outcome = ask(queries, solver.kind);
       EXPECT_EQ(outcome.wrong, 0) << what << ": " << outcome.first_wrong;

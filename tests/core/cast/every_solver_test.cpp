@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
+#include "renderer/paper/solvers.h"
 
 namespace minkray::testing {
 namespace {
@@ -11,7 +12,7 @@ using V = Vec3<double>;
 
 // Algorithm 1 was only tested with hits.
 TEST(Cast, of_every_solver_tells_hits_misses_and_insides_apart) {
-  for (const SolverDescription& solver : solver_descriptions) {
+  for (const auto& solver : named_solvers) {
     const CastOptions options{solver.kind};
     for (const Shape& shape : {Shape(Sphere{1}), Shape(Cylinder{1, 1})}) {
       const PreparedShape prepared(shape);

@@ -130,10 +130,10 @@ TEST(Filters, answers_cost_no_supports_and_other_solvers_are_not_overruled) {
   const CastResult<double> filtered = cast_ray(sphere, ray);
   EXPECT_EQ(filtered.path, Path::filter);
   EXPECT_EQ(filtered.supports + filtered.iterations, 0);
-  const CastResult<double> by_jets = cast_ray(sphere, ray, {SolverKind::jet});
+  const CastResult<double> by_jets = cast_ray(sphere, ray, {&solver::jet});
   EXPECT_NE(by_jets.path, Path::filter);
   EXPECT_GT(by_jets.supports, 0);
-  EXPECT_EQ(cast_ray(sphere, ray, {SolverKind::paper}).path, Path::gjk);
+  EXPECT_EQ(cast_ray(sphere, ray, {&solver::gjk_alone}).path, Path::gjk);
   int seen = 0;
   cast_ray(sphere, ray, {}, [&](const CastIteration<double>&) { ++seen; });
   EXPECT_GT(seen, 0);

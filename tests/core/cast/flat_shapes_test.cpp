@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/cast/packet_cast.h"
-#include "renderer/shape_cast/shape_cast.h"
+#include "renderer/paper/shape_cast.h"
 #include "tests/support/random.h"
 #include "tests/support/shifted.h"
 

@@ -9,6 +9,7 @@
 #include "core/cast/packet_cast.h"
 #include "core/proof/certificate.h"
 #include "core/proof/check_certificate.h"
+#include "renderer/paper/solvers.h"
 #include "tests/support/hashed_bits.h"
 #include "tests/support/measured_shapes.h"
 #include "tests/support/ray_families.h"
@@ -99,15 +100,15 @@ void cast_all(const Shape& shape, const Affine<double>& pose, AllBits& bits) {
     RayPacket packet;
     for (int i = 0; i < rays_each; ++i) {
       const Ray<double> ray = cut(rays.next(), random);
-      for (const SolverDescription& solver : solver_descriptions) {
-        const bool is_slow = solver.kind == SolverKind::first_solution;
+      for (const auto& solver : named_solvers) {
+        const bool is_slow = solver.kind == &solver::first_solution;
         if (is_slow && i >= slow_rays_each) continue;
         CastOptions options;
         options.solver = solver.kind;
         if (i % 8 == 5) options.v0 = Vec3<double>(1.0, 2.0, -3.0);
         if (i % 8 == 6) options.max_iterations = 4;
         bits[std::string(solver.name)].add(cast_ray(prepared, ray, options));
-        if (solver.kind == SolverKind::automatic || solver.kind == SolverKind::jet)
+        if (solver.kind == &solver::automatic || solver.kind == &solver::jet)
           bits["exit-" + std::string(solver.name)].add(cast_exit(prepared, ray, options));
       }
       if (i < proven_rays_each) {

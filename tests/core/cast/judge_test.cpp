@@ -50,7 +50,7 @@ TEST(Judge, hits_are_proven_that_are_off_by_less_than_sixteen_times_a_checkers_r
 // The ray leaves the shape, or would enter it, along its surface: at shapes with corners an origin
 // inside is checked again.
 TEST(Judge, origins_just_inside_smooth_shapes_are_told_by_models) {
-  const CastOptions options{SolverKind::jet};
+  const CastOptions options{&solver::jet};
   const Shape kinds[] = {
       Superellipsoid{{1, 0.8, 0.6}, 2.5},
       MinkowskiSum{{Shape(Ellipsoid{{1, 0.8, 0.2}}), Shape(Ellipsoid{{0.3, 0.5, 0.4}})}}};

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
+#include "renderer/paper/solvers.h"
 #include "tests/support/sample_shapes.h"
 
 namespace minkray::testing {
@@ -42,7 +43,7 @@ void check(const SampleShape& sample, const CastOptions& options) {
 
 TEST(NoDirection, is_a_point_inside_or_outside) {
   for (const SampleShape& sample : sample_shapes()) {
-    for (const SolverDescription& solver : solver_descriptions) {
+    for (const auto& solver : named_solvers) {
       SCOPED_TRACE(sample.name + " by " + std::string(solver.name));
       check(sample, {solver.kind});
     }

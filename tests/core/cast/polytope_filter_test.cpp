@@ -66,7 +66,7 @@ TEST(Polytope, hulls_far_from_their_origin_are_hit_where_they_are) {
     const Shape shape = Hull{PointCloud(points)};
     const PreparedShape prepared(shape);
     const HalfSpaces planes(points);
-    for (const SolverKind solver : {SolverKind::automatic, SolverKind::jet}) {
+    for (const Solver* const solver : {&solver::automatic, &solver::jet}) {
       int hits = 0;
       for (int i = 0; i < 2000; ++i) {
         const Vec3<double> from = near_middle(4), to = near_middle(1);

@@ -52,7 +52,7 @@ CastTruth truth_of(const Form& form, const Ray<double>& ray) {
 }
 
 /// The model's own answers: closed forms come before it.
-const CastOptions by_model = {SolverKind::jet};
+const CastOptions by_model = {&solver::jet};
 
 CastOutcome cast_at(const Form& form, RayFamily family, int count) {
   return cast_family(

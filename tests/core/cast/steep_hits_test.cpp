@@ -106,7 +106,7 @@ void check_steep_rays(std::uint64_t seed, int rounds) {
         Ray<double> ray;
         if (!make_steep(shape, prepared, random, ray)) continue;
         fuzz::CastReferee referee(shape, ray);
-        for (const SolverDescription& solver : accurate_solvers()) {
+        for (const auto& solver : accurate_solvers()) {
           const CastOptions options{solver.kind};
           const CastResult<double> entry = cast_ray(prepared, ray, options),
                                    exit = cast_exit(prepared, ray, options);

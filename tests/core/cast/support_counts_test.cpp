@@ -60,7 +60,7 @@ void count(const Limit& limit, RayFamily family) {
   int hits = 0, misses = 0, of_hits = 0, of_misses = 0, most = 0;
   for (int i = 0; i < 2000; ++i) {
     // The closed forms that answer most of these rays cost none.
-    const CastOptions options{SolverKind::jet};
+    const CastOptions options{&solver::jet};
     const CastResult<double> result = cast_ray(shape, rays.next(), options);
     if (result.status == Status::hit) {
       ++hits;

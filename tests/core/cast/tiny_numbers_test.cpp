@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
+#include "renderer/paper/solvers.h"
 #include "tests/support/sample_shapes.h"
 
 namespace minkray::testing {
@@ -14,7 +15,7 @@ void check_ends() {
   ASSERT_EQ(tiny * tiny, 0.0);
   const Vec3<double> x(tiny, 0, 0);
   const PreparedShape point{Shape(Point{})};
-  for (const SolverDescription& solver : solver_descriptions) {
+  for (const auto& solver : named_solvers) {
     SCOPED_TRACE(std::string(solver.name));
     const CastOptions options{solver.kind};
     const CastResult<double> behind = cast_ray(point, Ray<double>{3 * x, x}, options);
@@ -49,7 +50,7 @@ void check_no_time() {
   const double least = std::numeric_limits<double>::denorm_min();
   for (const Shape& wanted : reached()) {
     const PreparedShape shape(wanted);
-    for (const SolverDescription& solver : solver_descriptions) {
+    for (const auto& solver : named_solvers) {
       const Ray<double> ray{{-64, 0, 0}, {8 * least, 0, 0}};
       const CastResult<double> answer = cast_ray(shape, ray, {solver.kind});
       EXPECT_EQ(name_of(answer.status), name_of(Status::exhausted))

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "core/cast/cast.h"
-#include "renderer/shape_cast/distance.h"
+#include "renderer/paper/distance.h"
 #include "tests/support/ray_families.h"
 #include "tests/support/sample_shapes.h"
 #include "tests/support/traps.h"
@@ -37,7 +37,7 @@ TEST(Trap, fires_at_zero_by_zero_and_at_a_division_by_zero_and_at_nothing_else) 
 
 /// Random, grazing and far rays at the sample shapes that are of none of these kinds. Rays that the
 /// filter leaves to models are left out: those divide first and choose afterwards.
-void cast_with_traps(SolverKind solver, std::span<const std::string_view> left_out,
+void cast_with_traps(const Solver* solver, std::span<const std::string_view> left_out,
                      int fewest_shapes) {
   constexpr int rays_each = 200;
   int shapes = 0, hits = 0, casts = 0;
@@ -52,7 +52,7 @@ void cast_with_traps(SolverKind solver, std::span<const std::string_view> left_o
         const Ray<double> r = rays.next();
         const Ray<double> ray{r.origin, r.direction};
         CastResult<double> result;
-        if (solver == SolverKind::automatic && cast_ray(shape, ray, options).path != Path::filter)
+        if (solver == &solver::automatic && cast_ray(shape, ray, options).path != Path::filter)
           continue;
         ASSERT_TRUE(runs_without_trap([&] { result = cast_ray(shape, ray, options); }))
             << sample.name << ": origin " << ray.origin.transpose() << ", direction "
@@ -67,11 +67,11 @@ void cast_with_traps(SolverKind solver, std::span<const std::string_view> left_o
 }
 
 TEST(Traps, none_fires_in_casts_of_the_paper) {
-  cast_with_traps(SolverKind::paper, with_powers, 56);
+  cast_with_traps(&solver::gjk_alone, with_powers, 56);
 }
 
 TEST(Traps, none_fires_in_casts_in_closed_form) {
-  cast_with_traps(SolverKind::automatic, divided_first, 34);
+  cast_with_traps(&solver::automatic, divided_first, 34);
 }
 
 TEST(Traps, none_fires_in_distances_between_shapes_apart_and_overlapping) {

@@ -7,6 +7,7 @@
 
 #include "core/cast/cast.h"
 #include "core/derived/shape_bounds.h"
+#include "renderer/paper/solvers.h"
 #include "tests/support/random.h"
 
 namespace minkray::testing {
@@ -103,11 +104,11 @@ TEST(Recentred, a_small_disk_far_out_in_a_sum_is_hit_by_all_solvers) {
   const S shape = recentred_at(Rounded{0, S(MinkowskiSum{{disk}})}, {0, 0, 0}, outer);
   const Ray<double> ray{{1.005653442745567, -0.004889244888332973, 5.449373823054858},
                         {-1.0028267213727835, 0.0024446224441664866, -5.448136618558679}};
-  for (const SolverKind solver : {SolverKind::automatic, SolverKind::jet, SolverKind::paper}) {
+  for (const Solver* const solver : {&solver::automatic, &solver::jet, &solver::gjk_alone}) {
     const CastOptions options{solver};
     const CastResult<double> answer = cast_ray(PreparedShape(shape), ray, options);
     // The error of the place exceeds the size.
-    EXPECT_NE(answer.status, Status::miss) << static_cast<int>(solver);
+    EXPECT_NE(answer.status, Status::miss) << name_in(named_solvers, solver);
   }
 }
 

@@ -46,12 +46,9 @@ double worst_error(double least_power, double most_power) {
     const double sine = std::exp2(random.uniform(least_power, most_power));
     const double foot = random.uniform(0.3, 0.7), top = random.uniform(0.3, 0.7);
     const Vec3<double> from = up - foot * along - sine * random.uniform(0, 0.5) * across;
-    const std::array<Vec3<double>, 3> y = {from, Vec3<double>(from + along),
-                                           Vec3<double>(from + top * along + sine * across)};
-    SimplexPoints<double> simplex;
-    simplex.y[0] = y[0], simplex.y[1] = y[1], simplex.y[2] = y[2];
-    simplex.size = 3;
-    const Vec3<double> v = closest_point(simplex).v;
+    const SimplexPoints<double> y = {from, Vec3<double>(from + along),
+                                     Vec3<double>(from + top * along + sine * across)};
+    const Vec3<double> v = closest_point(y, 0b111).v;
     const QuadVec nearest =
         nearest_of_triangle(testing::quad(y[0]), testing::quad(y[1]), testing::quad(y[2]));
     const Quad off = (testing::quad(v) - nearest).squaredNorm() / nearest.squaredNorm();

@@ -10,11 +10,11 @@
 #include "core/pair_distance/manifold.h"
 #include "core/pair_motion/impact.h"
 #include "core/pair_motion/swept.h"
-#include "renderer/shape_cast/rotating_cast.h"
-#include "renderer/shape_cast/shape_cast.h"
+#include "renderer/paper/rotating_cast.h"
+#include "renderer/paper/shape_cast.h"
 #include "tests/core/pair_distance/aligned_bodies.h"
 #include "tests/core/pair_distance/pair_judge.h"
-#include "tests/renderer/shape_cast/random_poses.h"
+#include "tests/renderer/paper/random_poses.h"
 #include "tests/support/hashed_bits.h"
 
 namespace minkray::testing {
@@ -137,11 +137,9 @@ void ask_casts(const Body& a, const Body& b, AllBits& bits, RandomShapes& random
   const Vec3<double> velocity = -between + 0.4 * size * random.direction();
   const PreparedPair pair = pair_of(a.shape, a.pose, b.shape, b.pose);
   bits["shape casts"].add(cast_shape(pair, Vec3<double>(velocity)));
-  MovingBody of_a{a.shape, a.pose}, of_b{b.shape, b.pose};
-  of_b.velocity = velocity;
-  of_b.angular_velocity = random.direction();
-  bits["turning casts"].add(cast_rotating(of_a, of_b, 1.5, 4));
-  for (const SubalgorithmDescription& subalgorithm : subalgorithm_descriptions)
+  const RigidMotion of_b{b.pose, velocity, random.direction()};
+  bits["turning casts"].add(cast_rotating(a.shape, {a.pose}, b.shape, of_b, 1.5, 4));
+  for (const auto& subalgorithm : named_subalgorithms)
     bits["GJK " + std::string(subalgorithm.name)].add(
         distance_between(place(a.shape, a.pose), place(b.shape, b.pose), {}, subalgorithm.kind));
 }

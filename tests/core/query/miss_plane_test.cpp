@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "core/cast/cast.h"
+#include "renderer/paper/solvers.h"
 #include "tests/support/aimed_rays.h"
 #include "tests/support/sample_shapes.h"
 #include "tests/support/values_asked_for.h"
@@ -29,7 +30,7 @@ TEST_P(MissPlanes, separate_ray_and_shape) {
   }
   const double size = bounds.half_extents().norm() + bounds.centre().norm();
   int misses = 0;
-  for (const SolverDescription& solver : solver_descriptions) {
+  for (const auto& solver : named_solvers) {
     AimedRays rays(bounds, 77);
     for (int i = 0; i < 300; ++i) {
       Ray<double> ray = rays.next(1.5);

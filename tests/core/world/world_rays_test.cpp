@@ -147,7 +147,7 @@ TEST(WorldRays, of_instances_at_the_same_t_the_first_is_met) {
 TEST(WorldRays, of_other_solvers_are_answered_as_single_rays) {
   Scatter random;
   CastOptions impatient;
-  impatient.solver = SolverKind::paper;
+  impatient.solver = &solver::gjk_alone;
   impatient.max_iterations = 3;
   for (const int at_once : {16, 500}) {
     const World world(

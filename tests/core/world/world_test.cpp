@@ -89,7 +89,7 @@ TEST(World, empty_worlds_and_rays_from_inside) {
 // Casts that do not converge must be visible: the reader of a picture trusts its black.
 TEST(World, exhausted_casts_are_counted_and_taken_for_neither) {
   CastOptions impatient;
-  impatient.solver = SolverKind::paper;
+  impatient.solver = &solver::gjk_alone;
   impatient.max_iterations = 1;
   const World world(only(Box{{1, 1, 1}}), impatient);
   QueryCounts counts;

@@ -9,8 +9,8 @@
 #include <sstream>
 #include <tuple>
 
-#include "core/query/solver_kind.h"
 #include "renderer/cli/verbs.h"
+#include "renderer/paper/solvers.h"
 #include "tests/support/expect_exit.h"
 #include "tests/support/source_files.h"
 
@@ -217,7 +217,7 @@ TEST(FirstContact, each_verb_that_takes_a_solver_says_which_there_are) {
     // Lines are broken where they are too long.
     const std::string help =
         std::regex_replace(run_minkray(verb + " --help").out, std::regex("\\s+"), " ");
-    for (const SolverDescription& solver : solver_descriptions)
+    for (const auto& solver : named_solvers)
       EXPECT_TRUE(has(help, std::string(solver.name) + ": " + std::string(solver.doc)))
           << verb << " " << solver.name;
   }

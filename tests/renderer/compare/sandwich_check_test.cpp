@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every shape against Embree. Nothing here is tuned: see EmbreeMesh::cast for the bound.
 #include "renderer/compare/sandwich_check.h"
+#include "renderer/paper/solvers.h"
 
 #include <gtest/gtest.h>
 
@@ -59,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, EmbreeSandwich, values_asked_for<EmbreeSandwich
                            return name;
                          });
 
-class EmbreeSandwichOfSolvers : public ::testing::TestWithParam<SolverDescription> {};
+class EmbreeSandwichOfSolvers : public ::testing::TestWithParam<NamedSolver> {};
 
 TEST_P(EmbreeSandwichOfSolvers, holds) {
   const bool is_accurate = std::ranges::any_of(
@@ -73,7 +74,7 @@ TEST_P(EmbreeSandwichOfSolvers, holds) {
     // Johnson's determinants answer up to 4 % of the rays at needles wrongly.
     const bool is_long = sample.name.find("needle") != std::string::npos ||
                          sample.name.find("long") != std::string::npos;
-    if (is_long && GetParam().kind == SolverKind::paper_johnson) continue;
+    if (is_long && GetParam().kind == &solver::paper_johnson) continue;
     const CompareReport report = compare_with_embree(sample.shape, options);
     if (is_accurate) {
       expect_agreement(report, sample.name);
@@ -81,7 +82,7 @@ TEST_P(EmbreeSandwichOfSolvers, holds) {
       // These may fail to converge, and report it; their other results must be right, but for one
       // ray that signed volumes take for a hit where they stall.
       const int gave_up = report.violations[static_cast<std::size_t>(Violation::gave_up)];
-      const bool known = GetParam().kind == SolverKind::paper_signed_volumes &&
+      const bool known = GetParam().kind == &solver::paper_signed_volumes &&
                          sample.name == "superellipsoid, octahedron";
       EXPECT_LE(report.total_violations(), gave_up + (known ? 1 : 0))
           << sample.name << what_went_wrong(report);
@@ -89,7 +90,7 @@ TEST_P(EmbreeSandwichOfSolvers, holds) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Solvers, EmbreeSandwichOfSolvers, ::testing::ValuesIn(solver_descriptions),
+INSTANTIATE_TEST_SUITE_P(Solvers, EmbreeSandwichOfSolvers, ::testing::ValuesIn(named_solvers),
                          [](const auto& instance) {
                            std::string name(instance.param.name);
                            std::ranges::replace(name, '-', '_');

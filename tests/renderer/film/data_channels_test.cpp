@@ -105,7 +105,7 @@ TEST(DataChannelsOfOneCast, are_its_iterations_supports_gap_and_status) {
   const Shape shape = Ellipsoid{{2, 0.5, 1}};
   scene.objects = {{"egg", shape, shifted_by(0, 0, 0), 0}};
   CastOptions cast_options;
-  cast_options.solver = SolverKind::paper;
+  cast_options.solver = &solver::gjk_alone;
   RenderOptions options;
   options.resolution = {32, 24};
   const std::vector<std::string_view> names =

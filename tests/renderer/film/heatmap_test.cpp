@@ -33,7 +33,7 @@ HeatField measure(const Scene& scene, HeatChannel channel, const CastOptions& ca
 
 /// Uses the models: a ball's closed form costs no iteration.
 CastOptions by_models() {
-  const CastOptions options{SolverKind::jet};
+  const CastOptions options{&solver::jet};
   return options;
 }
 
@@ -79,7 +79,7 @@ TEST(Heatmap, status_tells_hit_inside_and_exhausted) {
   EXPECT_EQ(statuses(measure(inside, HeatChannel::status)), std::set<float>{2});
 
   CastOptions impatient;
-  impatient.solver = SolverKind::paper;
+  impatient.solver = &solver::gjk_alone;
   impatient.max_iterations = 2;
   const HeatField field = measure(two_balls(), HeatChannel::status, impatient);
   EXPECT_TRUE(statuses(field).contains(3));

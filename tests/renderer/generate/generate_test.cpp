@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "renderer/base/errors.h"
+#include "renderer/paper/distance.h"
 #include "renderer/scene/scene_instances.h"
 #include "renderer/scene/summary.h"
 #include "renderer/scene_json/scene_json.h"
-#include "renderer/shape_cast/distance.h"
 #include "tests/support/program.h"
 #include "tests/support/source_files.h"
 

@@ -7,7 +7,7 @@ namespace minkray {
 namespace {
 
 TEST(ToneMap, each_keeps_black_and_rises_to_white_and_no_further) {
-  for (const ToneMapDescription& map : tone_maps) {
+  for (const auto& map : tone_maps) {
     EXPECT_LT(tone_mapped(map.kind, {0, 0, 0}).maxCoeff(), 1e-3) << map.name;
     double last = -1;
     for (double light = 1e-3; light < 100; light *= 1.3) {

@@ -3,6 +3,7 @@
 
 #include <fstream>
 
+#include "renderer/paper/solvers.h"
 #include "renderer/query/answer.h"
 #include "renderer/query/query_json.h"
 #include "tests/support/messages.h"
@@ -73,13 +74,13 @@ TEST(HardCases, all_are_certified) {
 
 TEST(HardCases, all_are_right_with_algorithm_1_in_double) {
   AnswerOptions options;
-  options.solver = SolverKind::first_solution;
+  options.solver = &solver::first_solution;
   int cases = 0;
   EXPECT_EQ(all_complaints("hard-casts.jsonl", options, cases), std::vector<std::string>());
 }
 
 TEST(HardCases, distances_are_right_with_every_subalgorithm) {
-  for (const auto& subalgorithm : subalgorithm_descriptions) {
+  for (const auto& subalgorithm : named_subalgorithms) {
     AnswerOptions options;
     options.subalgorithm = subalgorithm.kind;
     int cases = 0;
@@ -283,7 +284,7 @@ TEST(Queries, numbers_of_answers_read_back_as_they_were_and_traces_bound_the_hit
       mistakes);
   ASSERT_TRUE(query) << mistakes.text();
   AnswerOptions options;
-  options.solver = SolverKind::paper;
+  options.solver = &solver::gjk_alone;
   options.trace = true;
   const Answer result = answer(*query, options);
   EXPECT_EQ(Json::parse(result.json.dump()).at("t").get<double>(), result.facts.t);
