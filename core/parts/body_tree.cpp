@@ -96,7 +96,7 @@ void BodyTree::open_leaf(Box box, EightTriangles& triangles, const Turned* at) c
       for (Vec3<double>& corner : corners) corner = at->turn * corner + at->shift;
     triangles.set(i, leaf.triangles[i], corners);
   }
-  triangles.fill();
+  triangles.finish();
 }
 
 double BodyTree::reach_along(const Vec3<double>& n) const {

@@ -6,18 +6,10 @@
 namespace minkray {
 
 void EightTriangles::set(int i, std::uint32_t part, const TriangleCorners& triangle) {
-  // Thinner slivers (by the sine) and smaller numbers give normals with too few digits.
-  constexpr double least_sine = 1e-6, least_square = 0x1p-900;
   parts[i] = part;
   for (int k = 0; k < 3; ++k)
     for (int axis = 0; axis < 3; ++axis)
       corners[k][axis][i] = triangle[static_cast<std::size_t>(k)][axis];
-  const Vec3<double> u = triangle[1] - triangle[0], v = triangle[2] - triangle[0];
-  const Vec3<double> n = u.cross(v);
-  const double squared = n.squaredNorm(),
-               of_sides = least_sine * least_sine * u.squaredNorm() * v.squaredNorm();
-  const double scale = squared > least_square && squared > of_sides ? 1 / std::sqrt(squared) : 0;
-  for (int axis = 0; axis < 3; ++axis) normals[axis][i] = scale * n[axis];
 }
 
 double EightTriangles::reach_along(const Vec3<double>& n) const {
@@ -29,9 +21,10 @@ double EightTriangles::reach_along(const Vec3<double>& n) const {
   return furthest;
 }
 
-void EightTriangles::fill() {
+void EightTriangles::finish() {
   const TriangleCorners first = triangle(0);
   for (int i = count; i < most; ++i) set(i, parts[0], first);
+  (has_avx2() ? triangle_normals_avx2 : triangle_normals_sse2)(*this);
 }
 
 void triangle_gaps(const TriangleCorners& one, const Vec3<double>& normal,

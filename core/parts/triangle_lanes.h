@@ -16,8 +16,9 @@ struct EightTriangles {
   alignas(32) double corners[3][3][most];  ///< by corner, axis, triangle
   alignas(32) double normals[3][most];
 
-  /// Copies the first triangle to the unused lanes.
-  void fill();
+  /// Completes the triangles after the last set(): copies the first one to the unused lanes, and
+  /// computes the normals.
+  void finish();
   TriangleCorners triangle(int i) const {
     const auto corner = [&](int k) {
       return Vec3<double>(corners[k][0][i], corners[k][1][i], corners[k][2][i]);
@@ -35,10 +36,13 @@ struct EightTriangles {
 /// towards the eight triangles.
 void triangle_gaps(const TriangleCorners& one, const Vec3<double>& normal,
                    const EightTriangles& eight, const Vec3<double>* known, double* gaps);
-/// Both functions return the same bits.
+/// Functions for both instruction sets return the same bits.
 void triangle_gaps_avx2(const TriangleCorners& one, const Vec3<double>& normal,
                         const EightTriangles& eight, const Vec3<double>* known, double* gaps);
 void triangle_gaps_sse2(const TriangleCorners& one, const Vec3<double>& normal,
                         const EightTriangles& eight, const Vec3<double>* known, double* gaps);
+/// Compute the normals of all lanes.
+void triangle_normals_avx2(EightTriangles& eight);
+void triangle_normals_sse2(EightTriangles& eight);
 
 }  // namespace minkray

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Body of the gaps between triangles. MINKRAY_TRIANGLE_GAPS is the function's name; all other names
-// here contain the instruction set (core/math/wide.h).
+// Bodies of the gaps between triangles, and of their normals. MINKRAY_TRIANGLE_GAPS and
+// MINKRAY_TRIANGLE_NORMALS are the functions' names; all other names here contain the instruction
+// set (core/math/wide.h).
 #include "core/math/wide.h"
 #include "core/parts/triangle_lanes.h"
 
@@ -65,7 +66,30 @@ W gaps_of(const TriangleOfLane<W>& one, const TriangleOfLane<W>& other, const Ve
   return known ? max(gap, gap_across(widen<W>(*known))) : gap;
 }
 
+template <class W>
+Vec3<W> load_lanes(const double (&rows)[3][EightTriangles::most], std::size_t from) {
+  return {W::load(rows[0] + from), W::load(rows[1] + from), W::load(rows[2] + from)};
+}
+
 }  // namespace
+
+void MINKRAY_TRIANGLE_NORMALS(EightTriangles& eight) {
+  constexpr std::size_t count = IsaHere::register_bytes / sizeof(double);
+  using W = Wide<double, static_cast<int>(count), IsaHere>;
+  // Thinner slivers (by the sine) and smaller numbers give normals with too few digits.
+  constexpr double least_sine = 1e-6, least_square = 0x1p-900;
+  for (std::size_t from = 0; from < EightTriangles::most; from += count) {
+    const Vec3<W> a = load_lanes<W>(eight.corners[0], from),
+                  b = load_lanes<W>(eight.corners[1], from),
+                  c = load_lanes<W>(eight.corners[2], from);
+    const Vec3<W> u = b - a, v = c - a, n = u.cross(v);
+    const W squared = dot_of<W>(n, n),
+            of_sides = W(least_sine * least_sine) * dot_of<W>(u, u) * dot_of<W>(v, v);
+    const W scale = select((squared > W(least_square)) & (squared > of_sides),
+                           W(1) / sqrt(max(squared, W(least_square))), W(0));
+    for (int axis = 0; axis < 3; ++axis) (scale * n[axis]).store(eight.normals[axis] + from);
+  }
+}
 
 void MINKRAY_TRIANGLE_GAPS(const TriangleCorners& one, const Vec3<double>& normal,
                            const EightTriangles& eight, const Vec3<double>* known, double* gaps) {
@@ -74,12 +98,10 @@ void MINKRAY_TRIANGLE_GAPS(const TriangleCorners& one, const Vec3<double>& norma
   const TriangleOfLane<W> same{{widen<W>(one[0]), widen<W>(one[1]), widen<W>(one[2])},
                                widen<W>(normal)};
   for (std::size_t from = 0; from < EightTriangles::most; from += count) {
-    const auto load = [&](const double(&rows)[3][EightTriangles::most]) {
-      return Vec3<W>(W::load(rows[0] + from), W::load(rows[1] + from), W::load(rows[2] + from));
-    };
     const TriangleOfLane<W> other{
-        {load(eight.corners[0]), load(eight.corners[1]), load(eight.corners[2])},
-        load(eight.normals)};
+        {load_lanes<W>(eight.corners[0], from), load_lanes<W>(eight.corners[1], from),
+         load_lanes<W>(eight.corners[2], from)},
+        load_lanes<W>(eight.normals, from)};
     gaps_of<W>(same, other, known).store(gaps + from);
   }
 }

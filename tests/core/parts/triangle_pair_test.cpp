@@ -140,7 +140,11 @@ TEST(TrianglePair, instruction_sets_have_the_same_bits) {
     eight.count = 5;
     for (int k = 0; k < eight.count; ++k)
       eight.set(k, 0, moved(random_triangle(random, k % 4), random.in_cube()));
-    eight.fill();
+    eight.finish();
+    EightTriangles other = eight;
+    triangle_normals_sse2(other);
+    triangle_normals_avx2(eight);
+    ASSERT_EQ(std::memcmp(&eight.normals, &other.normals, sizeof eight.normals), 0);
     const Vec3<double> known = random.direction();
     double of_wide[8], of_narrow[8];
     triangle_gaps_avx2(a, eight.normal(0), eight, &known, of_wide);
@@ -157,9 +161,11 @@ TEST(TriangleLanes, gaps_are_lower_bounds_and_near) {
     EightTriangles own, eight;
     own.count = 1;
     own.set(0, 0, a);
+    own.finish();
     eight.count = 8;
     for (int k = 0; k < 8; ++k)
       eight.set(k, 0, moved(random_triangle(random, k % 4), 3 * random.in_cube()));
+    eight.finish();
     const Vec3<double> known = random.direction();
     double gaps[8];
     triangle_gaps(a, own.normal(0), eight, i % 2 == 0 ? &known : nullptr, gaps);
