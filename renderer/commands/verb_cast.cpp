@@ -245,7 +245,7 @@ ExitCode cast(const CastVerbOptions& options) {
   if (options.certify)
     std::cerr << "certificates: " << certificates.holding << " hold, " << certificates.failing
               << " fail; " << certificates.without
-              << " results have none (distances, shapes that turn)\n";
+              << " results have none (distances, shapes that turn, moving meshes)\n";
   has_wrong |= certificates.failing > 0;
   return has_malformed ? ExitCode::bad_input
                        : (has_wrong ? ExitCode::comparison_failed : ExitCode::done);

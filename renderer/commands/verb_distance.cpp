@@ -79,8 +79,9 @@ DistanceFile kind_of_file(const std::string& file) {
 void distance_of_shapes(const DistanceVerbOptions& options) {
   if (options.is_of_table())
     throw WrongUsage("distance: for two shapes only --tolerance, --at-most and --only-sign apply");
-  SignedDistanceQuery query{shape_in(options.files[0], options.command_files),
-                            shape_in(options.files[1], options.command_files)};
+  SignedDistanceQuery query;
+  query.a = shape_in(options.files[0], options.command_files);
+  query.b = shape_in(options.files[1], options.command_files);
   query.at_most = options.at_most;
   query.only_sign = options.only_sign;
   AnswerOptions how;

@@ -20,12 +20,12 @@ namespace {
 
 struct HeatmapVerbOptions {
   ImageArguments image;
-  std::string channel = "iterations";
+  std::optional<std::string> channel;
   std::optional<std::string> side_by_side;  ///< comma-separated solvers; none: only image.solver
 };
 
-HeatChannel channel_of(const std::string& name) {
-  if (const HeatChannelDescription* known = row_named(heat_channels, name)) return known->kind;
+const HeatChannelDescription& channel_of(const std::string& name) {
+  if (const HeatChannelDescription* known = row_named(heat_channels, name)) return *known;
   throw WrongUsage("--channel: must be one of " + listed(names_in(heat_channels)) + " (got " +
                    name + ")");
 }
@@ -34,13 +34,16 @@ constexpr const char* heatmap_suffix = "-heatmap.png";
 
 void run(HeatmapVerbOptions& options) {
   options.image.choose_output(heatmap_suffix);
-  const HeatChannel channel = channel_of(options.channel);
+  if (options.channel) channel_of(*options.channel);
   const std::vector<std::string> solvers =
       pieces_of(options.side_by_side.value_or(options.image.solver), ',');
   const char* const solver_option = options.side_by_side ? "--side-by-side" : "--solver";
   for (const std::string& solver : solvers) cast_options(solver, solver_option);
   check_outputs(options.image.outputs);
   const Scene scene = options.image.load_scene();
+  const HeatChannelDescription& shown =
+      options.channel ? channel_of(*options.channel) : description_of(default_channel(scene));
+  const HeatChannel channel = shown.channel;
   const RenderOptions render_options = options.image.render_options(scene, solvers.size());
   options.image.tell_output();
 
@@ -69,7 +72,7 @@ void run(HeatmapVerbOptions& options) {
 
   if (!options.image.quiet)
     for (std::size_t i = 0; i < solvers.size(); ++i)
-      std::cout << options.channel << " (solver " << solvers[i] << ")\n"
+      std::cout << shown.name << " (solver " << solvers[i] << ")\n"
                 << heat_report(fields[i], channel);
   warn_of_exhausted(exhausted, casts);
 }
@@ -80,9 +83,10 @@ void add_heatmap(Parser& parser, ExitCode&) {
   const Verb verb = parser.add_verb("heatmap");
   const auto options = std::make_shared<HeatmapVerbOptions>();
   options->image.add_to(verb, heatmap_suffix);
-  verb.add_option("--channel", options->channel, "What to show:" + lines_of_help(heat_channels))
-      .takes("NAME")
-      .show_default();
+  verb.add_option("--channel", options->channel,
+                  "What to show (default: iterations, or nodes in scenes of meshes):" +
+                      lines_of_help(heat_channels))
+      .takes("NAME");
   const Option solver = add_solver_option(verb, options->image.solver);
   verb.add_option("--side-by-side", options->side_by_side,
                   "Solvers to show side by side with one colour scale, such as paper,auto")

@@ -125,12 +125,10 @@ Image heat_picture(const std::vector<HeatPanel>& panels, HeatChannel channel) {
     left += layout.panel_width + layout.gap;
   }
 
-  if (channel == HeatChannel::status) {
+  if (channel == HeatChannel::status)
     draw_status_legend(image, layout);
-  } else {
-    for (const HeatChannelDescription& description : heat_channels)
-      if (description.kind == channel) draw_scale(image, layout, most, description.unit);
-  }
+  else
+    draw_scale(image, layout, most, description_of(channel).unit);
   return image;
 }
 

@@ -28,6 +28,8 @@ float heat_of_ray(const World& world, const Ray<double>& ray, HeatChannel channe
       return static_cast<float>(work.supports);
     case HeatChannel::nodes:
       return static_cast<float>(work.nodes);
+    case HeatChannel::casts:
+      return static_cast<float>(work.casts);
     case HeatChannel::path:
       return static_cast<float>(work.furthest_path());
     case HeatChannel::status:
@@ -56,6 +58,11 @@ std::string bar(double fraction, int width) {
 }
 
 }  // namespace
+
+HeatChannel default_channel(const Scene& scene) {
+  const bool has_shape = std::ranges::any_of(scene.objects, &Object::has_shape);
+  return has_shape || !scene.particles.empty() ? HeatChannel::iterations : HeatChannel::nodes;
+}
 
 HeatField measure_heat(const Scene& scene, const World& world, HeatChannel channel,
                        const RenderOptions& options, const RenderWatch& watch) {

@@ -2,6 +2,7 @@
 // Cost of each pixel's camera ray, as numbers and as a picture with a scale.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -13,7 +14,7 @@
 namespace minkray {
 
 /// Quantities of a camera ray that a heatmap can show.
-enum class HeatChannel { iterations, supports, nodes, path, status };
+enum class HeatChannel { iterations, supports, nodes, casts, path, status };
 
 struct HeatChannelDescription {
   HeatChannel kind;
@@ -28,13 +29,19 @@ inline constexpr std::array heat_channels = {
     HeatChannelDescription{HeatChannel::supports, "supports", "support points per ray",
                            "support points, summed over all casts of the ray"},
     HeatChannelDescription{HeatChannel::nodes, "nodes", "nodes visited per ray",
-                           "visited BVH nodes (up to 8 boxes each)"},
+                           "visited BVH nodes (up to 8 boxes each), those of meshes included"},
+    HeatChannelDescription{HeatChannel::casts, "casts", "casts per ray",
+                           "shapes, planes and triangles of meshes that the ray is cast at"},
     HeatChannelDescription{HeatChannel::path, "path", "last stage needed by any cast",
                            "last stage that any cast needed: 0 closed form (filter), 1 osculating "
                            "ellipsoids (model), 2 GJK, 3 GJK with more digits (finer)"},
     HeatChannelDescription{HeatChannel::status, "status", "status of the cast",
                            "hit, miss, inside, or exhausted if any cast did not converge"},
 };
+
+inline const HeatChannelDescription& description_of(HeatChannel channel) {
+  return *std::ranges::find(heat_channels, channel, &HeatChannelDescription::kind);
+}
 
 /// The statuses that the status channel distinguishes, in the order of its numbers.
 inline constexpr std::array heat_statuses = {Status::miss, Status::hit, Status::inside,
@@ -47,6 +54,9 @@ struct HeatField {
   QueryCounts work;  ///< of all rays together
   bool complete = false;
 };
+
+/// Channel to show unless one is chosen: planes and meshes have no iterations.
+HeatChannel default_channel(const Scene& scene);
 
 /// Casts one ray through each pixel's centre (samples 1), or samples evenly spread over it: counts
 /// are averaged, and the gravest status wins.

@@ -83,7 +83,9 @@ Replays replays_within(std::size_t most_bytes, const Scene& scene,
                        std::size_t pairs, const RenderWatch& watch) {
   Deflater deflater;
   for (const ObjectPair& pair : nearest_pairs(scene, pairs)) {
-    const Json line{{"kind", "pair"}, {"pair", pair_json(scene, pair)}};
+    auto replay = pair_json(scene, pair);
+    if (!replay) continue;
+    const Json line{{"kind", "pair"}, {"pair", *std::move(replay)}};
     deflater.add(line.dump() + "\n");
   }
   Replays replays;
@@ -96,12 +98,12 @@ Replays replays_within(std::size_t most_bytes, const Scene& scene,
     if (watch.stopped()) break;
     if (replays.pixels % pixels_between_looks == 0 && deflater.size() + reserve_bytes > most_bytes)
       break;
-    const std::size_t instance = answers.shown[pixel].object - 1;
-    if (!solvers.front().casts.world().instances().has_shape(instance)) continue;
+    const ShownCast& shown = answers.shown[pixel];
+    if (!shown.has_steps) continue;
     const double x = static_cast<double>(pixel % width) + 0.5,
                  y = static_cast<double>(pixel / width) + 0.5;
     for (std::size_t k = 0; k < solvers.size(); ++k)
-      deflater.add(lines.ray(solvers[k].casts, k, instance, {x, y, camera.ray(x, y)}));
+      deflater.add(lines.ray(solvers[k].casts, k, shown.shown(), {x, y, camera.ray(x, y)}));
     ++replays.pixels;
   }
   replays.packed = deflater.finish();

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parts/parts_distance.h"
 #include "renderer/inspect/replay.h"
 #include "renderer/inspect/shape_mesh.h"
 #include "renderer/json/number_json.h"
 #include "renderer/paper/distance.h"
 #include "renderer/paper/shape_cast.h"
+#include "renderer/query/pair_body.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {
@@ -91,20 +93,48 @@ Json plane_json(const PreparedPair& pair) {
   return json;
 }
 
-CentredShape centred_instance(const Scene& scene, std::size_t i) {
-  const Object object = instance_object(scene, i);
-  return centred(object.shape, object.pose);
+/// Two convex shapes of a pair: objects, or the nearest triangles of meshes.
+struct PairShapes {
+  CentredShape a, b;
+  PartPair parts;
+};
+
+QueryBody body_of(const Object& object) {
+  if (object.mesh) return QueryBody(object.mesh, object.pose);
+  return QueryBody(Shape(Transform{Nested(object.shape), object.pose}));
+}
+
+/// Nothing if one lies within the other's mesh: no two parts are nearest.
+std::optional<PairShapes> shapes_of(const Object& a, const Object& b) {
+  if (!a.mesh && !b.mesh) return PairShapes{centred(a.shape, a.pose), centred(b.shape, b.pose), {}};
+  const QueryBody body_a = body_of(a), body_b = body_of(b);
+  const PairBody posed_a(body_a), posed_b(body_b);
+  PartPair parts;
+  signed_distance(posed_a.parts(), posed_a.pose(), posed_b.parts(), posed_b.pose(), {}, &parts);
+  if ((a.mesh && parts.a == no_part) || (b.mesh && parts.b == no_part)) return std::nullopt;
+  return PairShapes{centred(posed_a.part(parts.a)), centred(posed_b.part(parts.b)), parts};
+}
+
+/// A ball that contains the object: a gap of two is no more than their distance.
+Ball<double> ball_of(const Object& object) {
+  if (!object.mesh) {
+    const CentredShape shape = centred(object.shape, object.pose);
+    return {shape.centre, shape.radius};
+  }
+  const Bounds<double>& box = object.mesh->bounds();
+  return {object.pose(box.centre()),
+          (object.pose.linear.cwiseAbs() * box.reach_of_centre()).norm()};
 }
 
 }  // namespace
 
 std::vector<ObjectPair> nearest_pairs(const Scene& scene, std::size_t most) {
   std::vector<std::size_t> solid;
-  std::vector<CentredShape> shapes;
+  std::vector<Ball<double>> balls;
   for (std::size_t i = 0; i < std::min(scene.objects.size(), most_objects_paired); ++i) {
-    if (!scene.objects[i].has_shape()) continue;
+    if (scene.objects[i].half_space) continue;
     solid.push_back(i);
-    shapes.push_back(centred_instance(scene, i));
+    balls.push_back(ball_of(scene.objects[i]));
   }
   struct Candidate {
     double gap;
@@ -114,7 +144,7 @@ std::vector<ObjectPair> nearest_pairs(const Scene& scene, std::size_t most) {
   for (std::size_t i = 0; i < solid.size(); ++i)
     for (std::size_t j = i + 1; j < solid.size(); ++j)
       candidates.push_back(
-          {(shapes[i].centre - shapes[j].centre).norm() - shapes[i].radius - shapes[j].radius,
+          {(balls[i].centre - balls[j].centre).norm() - balls[i].radius - balls[j].radius,
            {solid[i], solid[j]}});
   const auto kept = std::min(most, candidates.size());
   std::stable_sort(candidates.begin(), candidates.end(),
@@ -124,15 +154,20 @@ std::vector<ObjectPair> nearest_pairs(const Scene& scene, std::size_t most) {
   return pairs;
 }
 
-Json pair_json(const Scene& scene, const ObjectPair& pair) {
-  const PreparedPair prepared(centred_instance(scene, pair.a), centred_instance(scene, pair.b));
+std::optional<Json> pair_json(const Scene& scene, const ObjectPair& pair) {
+  const auto shapes = shapes_of(scene.objects[pair.a], scene.objects[pair.b]);
+  if (!shapes) return std::nullopt;
+  const PreparedPair prepared(shapes->a, shapes->b);
   const PreparedShape& obstacle = prepared.obstacle();
-  return {{"a", pair.a},
-          {"b", pair.b},
-          {"mesh", mesh_json(obstacle.inner_shape(), obstacle.inner_ball(), fine_mesh)},
-          {"distance", distance_json(prepared)},
-          {"impact", impact_json(prepared)},
-          {"plane", plane_json(prepared)}};
+  Json json = {{"a", pair.a},
+               {"b", pair.b},
+               {"mesh", mesh_json(obstacle.inner_shape(), obstacle.inner_ball(), fine_mesh)},
+               {"distance", distance_json(prepared)},
+               {"impact", impact_json(prepared)},
+               {"plane", plane_json(prepared)}};
+  if (shapes->parts.a != no_part) json["triangle_a"] = shapes->parts.a;
+  if (shapes->parts.b != no_part) json["triangle_b"] = shapes->parts.b;
+  return json;
 }
 
 }  // namespace minkray

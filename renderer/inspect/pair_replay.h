@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "renderer/json/json.h"
@@ -20,7 +21,9 @@ struct ObjectPair {
 std::vector<ObjectPair> nearest_pairs(const Scene& scene, std::size_t most);
 
 /// {"a", "b", "mesh", "distance", "impact", "plane"}: instances, the meshes of A - B, and a replay
-/// each. The motion of "impact" is that of b's centre to a's, in one unit of time.
-Json pair_json(const Scene& scene, const ObjectPair& pair);
+/// each. The motion of "impact" is that of b's centre to a's, in one unit of time. An object with a
+/// mesh is replaced by its nearest triangle, "triangle_a" or "triangle_b". Nothing if one object
+/// lies within the other's mesh.
+std::optional<Json> pair_json(const Scene& scene, const ObjectPair& pair);
 
 }  // namespace minkray

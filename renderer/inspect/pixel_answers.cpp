@@ -36,12 +36,9 @@ std::uint8_t number_of(Status status) {
 }
 
 /// Work of another solver for the cast that is shown.
-ShownWork work_of(const Scene& scene, const SceneCasts& casts, const ShownCast& shown,
-                  const Ray<double>& ray) {
-  const std::size_t instance = std::size_t{shown.object} - 1;
-  if (shown.object == 0) return {};
-  if (instance < scene.objects.size() && !scene.objects[instance].has_shape()) return {};
-  const CastResult<double> result = casts.trace(instance, ray).result;
+ShownWork work_of(const SceneCasts& casts, const ShownCast& shown, const Ray<double>& ray) {
+  if (!shown.has_steps) return {};
+  const CastResult<double> result = casts.trace(shown.shown(), ray).result;
   return {result.iterations, result.supports};
 }
 
@@ -64,11 +61,13 @@ auto plane_of(const std::vector<From>& from, const Get& get) {
 ShownCast shown_cast(const SceneCasts& casts, const Ray<double>& ray, std::size_t most_looked_at) {
   const SceneAnswer answer = casts.answer(ray);
   ShownCast shown;
-  const auto instance = casts.shown(ray, answer, most_looked_at);
+  const auto part = casts.shown(ray, answer, most_looked_at);
   // Without iterations to show it is the picture's own answer.
-  const CastResult<double> result = instance ? casts.trace(*instance, ray).result : answer.hit.cast;
-  if (instance) shown.object = static_cast<std::uint32_t>(*instance + 1);
-  if (!instance && answer.hit.found()) shown.object = answer.hit.instance + 1;
+  const CastResult<double> result = part ? casts.trace(*part, ray).result : answer.hit.cast;
+  shown.has_steps = part.has_value();
+  if (part) shown.object = static_cast<std::uint32_t>(part->instance + 1);
+  if (!part && answer.hit.found()) shown.object = answer.hit.instance + 1;
+  shown.part = part ? part->part : answer.hit.part;
   shown.status = number_of(result.status);
   if (result.found()) {
     shown.t = result.t_base + result.t_offset;
@@ -96,8 +95,8 @@ PixelAnswers measure_pixels(const Scene& scene, const std::vector<const SceneCas
     const ShownCast shown = shown_cast(*solvers.front(), ray, most_looked_at_in_picture);
     answers.shown[pixel.index] = shown;
     for (std::size_t k = 0; k < solvers.size(); ++k) {
-      answers.work[k][pixel.index] = k == 0 ? ShownWork{shown.iterations, shown.supports}
-                                            : work_of(scene, *solvers[k], shown, ray);
+      answers.work[k][pixel.index] =
+          k == 0 ? ShownWork{shown.iterations, shown.supports} : work_of(*solvers[k], shown, ray);
       answers.of_ray[k][pixel.index] = cost_of(*solvers[k], ray);
     }
     ++of_tile.camera;
@@ -109,6 +108,8 @@ PackedPlanes packed(const PixelAnswers& answers) {
   const auto& shown = answers.shown;
   PackedPlanes planes;
   planes.add("object", plane_of(shown, [](const ShownCast& c) { return c.object; }));
+  if (std::ranges::any_of(shown, [](const ShownCast& c) { return c.part != no_part; }))
+    planes.add("triangle", plane_of(shown, [](const ShownCast& c) { return c.part; }));
   planes.add("status", plane_of(shown, [](const ShownCast& c) { return c.status; }));
   planes.add("t", plane_of(shown, [](const ShownCast& c) { return c.t; }));
   planes.add("below",
@@ -135,6 +136,7 @@ PackedPlanes packed(const PixelAnswers& answers) {
     add("ray_iterations", [](const RayCost& c) { return in_16_bits(c.work.iterations); });
     add("ray_supports", [](const RayCost& c) { return in_16_bits(c.work.supports); });
     add("ray_nodes", [](const RayCost& c) { return in_16_bits(c.work.nodes); });
+    add("ray_casts", [](const RayCost& c) { return in_16_bits(c.work.casts); });
     add("ray_path", [](const RayCost& c) { return static_cast<std::uint8_t>(c.last_path); });
     add("ray_time", [](const RayCost& c) { return time_in_8_bits(c.nanoseconds); });
   }

@@ -11,12 +11,16 @@ namespace minkray {
 
 /// Data of the cast that the page shows at a pixel, by the first solver.
 struct ShownCast {
-  std::uint32_t object = 0;  ///< 1 + the instance; 0: no cast is shown
-  std::uint8_t status = 0;   ///< index in heat_statuses
+  std::uint32_t object = 0;      ///< 1 + the instance; 0: no cast is shown
+  std::uint32_t part = no_part;  ///< number of the triangle, if the instance is a mesh
+  bool has_steps = false;        ///< the cast can be replayed
+  std::uint8_t status = 0;       ///< index in heat_statuses
   double t = 0;
   double below = 0, above = 0;  ///< distance of the bounds of t from it
   Vec3<double> normal = Vec3<double>::Zero();
   int iterations = 0, supports = 0;
+
+  ShownPart shown() const { return {std::size_t{object} - 1, part}; }
 };
 
 /// Work of that cast by one of the solvers.

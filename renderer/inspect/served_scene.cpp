@@ -122,12 +122,12 @@ WebReply ServedScene::cast(const Asked& asked) {
   const double x = asked.number("x", 0), y = asked.number("y", 0);
   const Ray<double> ray = Camera(asked.camera, options_.picture.resolution).ray(x, y);
   const SceneCasts& first = solvers.front().casts;
-  const auto instance = first.shown(ray, first.answer(ray), most_looked_at_alone);
+  const auto shown = first.shown(ray, first.answer(ray), most_looked_at_alone);
   WebReply reply{200, "application/jsonl", ""};
-  if (!instance) return reply;
+  if (!shown) return reply;
   ReplayLines lines(fine_mesh);
   for (std::size_t k = 0; k < solvers.size(); ++k)
-    reply.body += lines.ray(solvers[k].casts, k, *instance, {x, y, ray});
+    reply.body += lines.ray(solvers[k].casts, k, *shown, {x, y, ray});
   return reply;
 }
 
@@ -135,11 +135,13 @@ WebReply ServedScene::pair(const Asked& asked) {
   const auto object = [&](const char* key) {
     const double number = asked.number_within(key, 0, 1, double(scene_.objects.size()));
     const auto index = static_cast<std::size_t>(number) - 1;
-    if (!scene_.objects[index].has_shape())
-      throw BadInput(std::string(key) + ": must be a shape (got a half-space or a mesh)");
+    if (scene_.objects[index].half_space)
+      throw BadInput(std::string(key) + ": must be a shape or a mesh (got a half-space)");
     return index;
   };
-  const Json line{{"kind", "pair"}, {"pair", pair_json(scene_, {object("a"), object("b")})}};
+  auto replay = pair_json(scene_, {object("a"), object("b")});
+  if (!replay) throw BadInput("a: must not lie within b, nor b within a");
+  const Json line{{"kind", "pair"}, {"pair", *std::move(replay)}};
   return {200, "application/jsonl", line.dump() + "\n"};
 }
 

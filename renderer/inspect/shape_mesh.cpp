@@ -9,9 +9,6 @@
 namespace minkray {
 namespace {
 
-/// Coordinates are rounded to this share of the largest: less than a pixel, unless magnified.
-constexpr double steps_to_largest = 5000;
-
 template <class Place>
 Json json_of(const Mesh& mesh, double scale, const Place& place) {
   Json vertices = Json::array(), triangles = Json::array();
@@ -32,7 +29,7 @@ Json mesh_json(const Shape& shape, const Ball<double>& ball, int directions) {
   options.directions = directions;
   try {
     const Sandwich sandwich = sandwich_of(shape, options);
-    const double scale = (ball.radius > 0 ? ball.radius : 1) / steps_to_largest;
+    const double scale = (ball.radius > 0 ? ball.radius : 1) / mesh_steps;
     const auto from_centre = [&](const Vec3<double>& vertex) -> Vec3<double> {
       return sandwich.frame.from_frame(vertex) - ball.centre;
     };

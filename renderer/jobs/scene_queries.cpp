@@ -77,6 +77,7 @@ std::optional<Json> SceneQueries::answer(std::string_view line, Mistakes& mistak
     result["t_lo"] = number_json(sum_or_less(hit.cast.t_base, hit.cast.offset_lo));
     result["t_hi"] = number_json(sum_or_more(hit.cast.t_base, hit.cast.offset_hi));
     result["normal"] = point_json(hit.cast.normal);
+    if (hit.part != no_part) result["triangle"] = hit.part;
     result["object"] = hit.instance;
     result["object_name"] = instance_object(loaded->scene, hit.instance).name;
   }

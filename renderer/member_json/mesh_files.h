@@ -85,6 +85,10 @@ class MeshFiles {
   /// be used.
   std::optional<HeightGrid> read_heights(const std::string& name, const JsonPath& path,
                                          Mistakes& mistakes);
+  /// Place for the mesh of a terrain by its text in the scene and its file, to be made once.
+  std::shared_ptr<const TriangleMesh>& terrain(const std::string& name, const std::string& text) {
+    return terrains_[{from_scene(name), text}];
+  }
 
   /// Adds what was read: the names, and all vertices.
   void add_to(Hash& hash) const;
@@ -130,6 +134,7 @@ class MeshFiles {
                                            const MeshAttributes& attributes, const JsonPath& path,
                                            Mistakes& mistakes);
   std::map<std::string, std::string> heights_;  ///< hashes
+  std::map<std::pair<std::string, std::string>, std::shared_ptr<const TriangleMesh>> terrains_;
   struct Picture {
     std::shared_ptr<const Image> image;
     std::string hash;  ///< of all pixels

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/query/answer.h"
 
-#include "core/math/outward_sum.h"
 #include "core/pair_distance/manifold.h"
 #include "core/pair_distance/signed_distance.h"
 #include "core/pair_motion/impact.h"
@@ -10,51 +9,24 @@
 #include "renderer/paper/rotating_cast.h"
 #include "renderer/paper/shape_cast.h"
 #include "renderer/paper/trace.h"
+#include "renderer/query/answer_json.h"
+#include "renderer/query/mesh_answer.h"
 
 namespace minkray {
 namespace {
-
-/// The keys that every cast's answer has.
-void add_cast(Answer& answer, const CastResult<double>& result) {
-  answer.facts.status = name_of(result.status);
-  answer.facts.hit = result.found();
-  answer.facts.t = result.t();
-  answer.json["status"] = answer.facts.status;
-  if (result.status != Status::miss) {
-    answer.json["t"] = number_json(answer.facts.t);
-    answer.json["t_lo"] = number_json(sum_or_less(result.t_base, result.offset_lo));
-    answer.json["t_hi"] = number_json(sum_or_more(result.t_base, result.offset_hi));
-  }
-  if (!result.normal.isZero(0)) {
-    answer.facts.normal = result.normal;
-    answer.json["normal"] = point_json(result.normal);
-  }
-}
 
 void add_costs(Answer& answer, int iterations, int supports) {
   answer.json["iterations"] = iterations;
   answer.json["supports"] = supports;
 }
 
-/// Proves the answer, and reports the margins: docs/certificates.md.
+/// Proves the answer.
 void add_certificate(Answer& answer, const Shape& shape, const Ray<double>& ray,
                      const CastResult<double>& result) {
   const SupportFunction support = supports_of(shape);
   const Claim claim = claim_of(result);
-  const CertificateVerdict verdict =
-      check_certificate(support, ray, claim, certify(support, ray, claim));
-  answer.verdict = verdict;
-  Json json = {{"holds", verdict.holds}};
-  if (!verdict.holds) json["complaint"] = verdict.complaint;
-  if (result.status == Status::hit) {
-    json["t_lo"] = number_json(verdict.t_lo());
-    json["t_hi"] = number_json(verdict.t_hi());
-    json["gap"] = number_json(verdict.gap);
-  }
-  if (result.found()) json["lateral"] = number_json(verdict.lateral);
-  if (result.status == Status::miss) json["margin"] = number_json(verdict.margin);
-  json["allowed"] = number_json(verdict.allowed);
-  answer.json["certified"] = std::move(json);
+  add_verdict(answer, check_certificate(support, ray, claim, certify(support, ray, claim)),
+              result.status);
 }
 
 CastOptions cast_options(const AnswerOptions& options) {
@@ -64,7 +36,7 @@ CastOptions cast_options(const AnswerOptions& options) {
 }
 
 void solve(const RayQuery& query, const AnswerOptions& options, Answer& answer) {
-  const PreparedShape shape(query.shape);
+  const PreparedShape shape(query.body.shape);
   const Ray<double>& ray = query.ray;
   CastTrace trace;
   if (options.trace)
@@ -73,25 +45,15 @@ void solve(const RayQuery& query, const AnswerOptions& options, Answer& answer) 
     trace.result = cast_ray(shape, ray, cast_options(options));
   const CastResult<double>& result = trace.result;
   add_cast(answer, result);
-  if (result.found()) {
-    // From far away the terms are much larger than their sum: the product is not rounded.
-    using Long = long double;
-    Vec3<double> point;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Long direction = ray.direction[axis];
-      const Long near = std::fma(Long(result.t_base), direction, Long(ray.origin[axis]));
-      point[axis] = static_cast<double>(std::fma(Long(result.t_offset), direction, near));
-    }
-    answer.json["point"] = point_json(point);
-  }
+  add_hit_point(answer, ray, result);
   add_costs(answer, result.iterations, result.supports);
-  if (options.certify) add_certificate(answer, query.shape, ray, result);
+  if (options.certify) add_certificate(answer, query.body.shape, ray, result);
   if (options.trace) answer.json["trace"] = trace_json(trace);
 }
 
 void solve_turning(const ShapeQuery& query, const AnswerOptions& options, Answer& answer) {
   const RotatingCastResult result = cast_rotating(
-      query.obstacle, {{}, query.obstacle_direction, query.obstacle_turn}, query.moving,
+      query.obstacle.shape, {{}, query.obstacle_direction, query.obstacle_turn}, query.moving.shape,
       {{}, query.direction, query.turn}, query.t_max, query.steps, cast_options(options));
   const bool found = result.status == Status::hit || result.status == Status::inside;
   answer.facts.status = name_of(result.status);
@@ -116,7 +78,7 @@ void solve_turning(const ShapeQuery& query, const AnswerOptions& options, Answer
 
 void solve(const ShapeQuery& query, const AnswerOptions& options, Answer& answer) {
   if (query.turns()) return solve_turning(query, options, answer);
-  const PreparedPair pair(centred(query.obstacle), centred(query.moving));
+  const PreparedPair pair(centred(query.obstacle.shape), centred(query.moving.shape));
   const Vec3<double> of_moving = query.direction, of_obstacle = query.obstacle_direction;
   const ShapeCastResult result =
       cast_shapes(pair, of_obstacle, of_moving, query.t_max, cast_options(options));
@@ -148,8 +110,8 @@ void solve(const DistanceQuery& query, const AnswerOptions& options, Answer& ans
                        {"lower", number_json(step.lower)},
                        {"upper", number_json(step.upper)}});
     };
-  const DistanceResult<double, 3> result =
-      distance_between(centred(query.a), centred(query.b), {}, options.subalgorithm, observer);
+  const DistanceResult<double, 3> result = distance_between(
+      centred(query.a.shape), centred(query.b.shape), {}, options.subalgorithm, observer);
   answer.facts.status = name_of(result.status);
   answer.facts.distance = result.distance;
   answer.json["status"] = answer.facts.status;
@@ -163,60 +125,27 @@ void solve(const DistanceQuery& query, const AnswerOptions& options, Answer& ans
   if (options.trace) answer.json["trace"] = std::move(trace);
 }
 
-/// Null where nothing is known.
-Json value_json(const SignedDistance& distance) {
-  return distance.is_unknown() ? Json() : Json(number_json(distance.value));
-}
-
 void solve(const SignedDistanceQuery& query, const AnswerOptions& options, Answer& answer) {
   SignedDistanceOptions how;
   how.tolerance = options.tolerance;
   how.at_most = query.at_most;
   how.only_sign = query.only_sign;
-  const SignedDistance result = signed_distance(ContactShape(query.a), ContactShape(query.b), how);
-  answer.facts.status = name_of(result.status);
-  answer.facts.hit = result.status == SignedStatus::overlapping;
-  answer.facts.distance = result.value;
-  answer.json["status"] = answer.facts.status;
-  answer.json["value"] = value_json(result);
-  answer.json["lower"] = number_json(result.lower);
-  answer.json["upper"] = number_json(result.upper);
-  if (!result.normal.isZero(0)) {
-    answer.facts.normal = result.normal;
-    answer.json["normal"] = point_json(result.normal);
-  }
-  if (std::isfinite(result.upper)) {
-    answer.json["point_a"] = point_json(result.point_a);
-    answer.json["point_b"] = point_json(result.point_b);
-  }
+  const SignedDistance result =
+      signed_distance(ContactShape(query.a.shape), ContactShape(query.b.shape), how);
+  add_signed_distance(answer, result);
   answer.json["supports"] = result.supports;
   if (result.is_exhausted) answer.json["settled"] = false;
 }
 
 void solve(const ManifoldQuery& query, const AnswerOptions& options, Answer& answer) {
-  const ContactShape a(query.a), b(query.b);
+  const ContactShape a(query.a.shape), b(query.b.shape);
   SignedDistanceOptions how;
   how.tolerance = options.tolerance;
   const SignedDistance nearest = signed_distance(a, b, how);
   ManifoldOptions manifold;
   manifold.tilt = query.tilt.value_or(manifold.tilt);
   manifold.within = query.within.value_or(manifold.within);
-  const ContactManifold found = contact_manifold(a, {}, b, {}, nearest, manifold);
-  answer.facts.status = name_of(nearest.status);
-  answer.facts.hit = nearest.status == SignedStatus::overlapping;
-  answer.facts.distance = nearest.value;
-  answer.facts.normal = found.normal;
-  answer.json["status"] = answer.facts.status;
-  answer.json["value"] = value_json(nearest);
-  answer.json["normal"] = point_json(found.normal);
-  Json points = Json::array();
-  for (int i = 0; i < found.count; ++i) {
-    const ContactPoint& point = found.points[static_cast<std::size_t>(i)];
-    points.push_back({{"point_a", point_json(point.point_a)},
-                      {"point_b", point_json(point.point_b)},
-                      {"distance", number_json(point.distance)}});
-  }
-  answer.json["points"] = std::move(points);
+  add_contacts(answer, nearest, contact_manifold(a, {}, b, {}, nearest, manifold));
 }
 
 /// The shape in a frame about its pivot, and that frame's motion.
@@ -226,23 +155,9 @@ std::pair<ContactShape, RigidMotion> body_of(const Shape& shape, const ImpactMot
 }
 
 void solve(const ImpactQuery& query, const AnswerOptions&, Answer& answer) {
-  const auto [a, motion_a] = body_of(query.a, query.motion_a);
-  const auto [b, motion_b] = body_of(query.b, query.motion_b);
-  const Impact result = first_impact(a, motion_a, b, motion_b, query.t_max);
-  answer.facts.status = name_of(result.status);
-  answer.facts.hit = result.status == ImpactStatus::hit || result.status == ImpactStatus::inside;
-  answer.facts.t = result.t_lo;
-  answer.json["status"] = answer.facts.status;
-  answer.json["t_lo"] = number_json(result.t_lo);
-  answer.json["t_hi"] = answer.facts.hit ? Json(number_json(result.t_hi)) : Json();
-  answer.facts.normal = result.normal;
-  answer.json["normal"] = point_json(result.normal);
-  if (std::isfinite(result.distance)) {  // the distance is known
-    answer.json["distance"] = number_json(result.distance);
-    answer.json["point_a"] = point_json(result.point_a);
-    answer.json["point_b"] = point_json(result.point_b);
-  }
-  answer.json["steps"] = result.steps;
+  const auto [a, motion_a] = body_of(query.a.shape, query.motion_a);
+  const auto [b, motion_b] = body_of(query.b.shape, query.motion_b);
+  add_impact(answer, first_impact(a, motion_a, b, motion_b, query.t_max));
 }
 
 }  // namespace
@@ -250,7 +165,14 @@ void solve(const ImpactQuery& query, const AnswerOptions&, Answer& answer) {
 Answer answer(const Query& query, const AnswerOptions& options) {
   Answer result;
   if (!query.name.empty()) result.json["name"] = query.name;
-  std::visit([&](const auto& kind) { solve(kind, options, result); }, query.kind);
+  std::visit(
+      [&](const auto& kind) {
+        if (kind.has_mesh())
+          answer_at_mesh(kind, options, result);
+        else
+          solve(kind, options, result);
+      },
+      query.kind);
   return result;
 }
 

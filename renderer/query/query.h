@@ -8,21 +8,23 @@
 #include <variant>
 
 #include "core/math/ray.h"
-#include "core/shape/shape.h"
+#include "renderer/query/query_body.h"
 
 namespace minkray {
 
-/// Query for where a ray enters a shape.
+/// Query for where a ray enters a body.
 struct RayQuery {
-  Shape shape;
+  QueryBody body;
   Ray<double> ray;
+
+  bool has_mesh() const { return body.mesh != nullptr; }
 };
 
-/// When the moving shape first touches the obstacle. Each is moved by t times its direction and, if
+/// When the moving body first touches the obstacle. Each is moved by t times its direction and, if
 /// it has a turn, turned by t times that (a rotation vector, radians) about its frame's origin.
 struct ShapeQuery {
-  Shape moving;
-  Shape obstacle;
+  QueryBody moving;
+  QueryBody obstacle;
   Vec3<double> direction = Vec3<double>::Zero();
   Vec3<double> obstacle_direction = Vec3<double>::Zero();
   Vec3<double> turn = Vec3<double>::Zero();
@@ -31,41 +33,41 @@ struct ShapeQuery {
   double t_max = std::numeric_limits<double>::infinity();
 
   bool turns() const { return !turn.isZero(0) || !obstacle_turn.isZero(0); }
+  bool has_mesh() const { return moving.mesh || obstacle.mesh; }
 };
 
-/// Query for the distance of two shapes.
-struct DistanceQuery {
-  Shape a;
-  Shape b;
+/// Two bodies.
+struct PairQuery {
+  QueryBody a;
+  QueryBody b;
+
+  bool has_mesh() const { return a.mesh || b.mesh; }
 };
 
-/// Query for the signed distance of two shapes (core/pair_distance/signed_distance.h).
-struct SignedDistanceQuery {
-  Shape a;
-  Shape b;
+/// Query for the distance of two bodies.
+struct DistanceQuery : PairQuery {};
+
+/// Query for the signed distance of two bodies (core/pair_distance/signed_distance.h).
+struct SignedDistanceQuery : PairQuery {
   double at_most = std::numeric_limits<double>::infinity();
   bool only_sign = false;
 };
 
 /// Up to four points of contact (core/pair_distance/manifold.h).
-struct ManifoldQuery {
-  Shape a;
-  Shape b;
+struct ManifoldQuery : PairQuery {
   std::optional<double> tilt;    ///< radians
   std::optional<double> within;  ///< in sizes of the smaller shape
 };
 
-/// Motion of a shape of an impact: its pivot by `velocity`, and about that by `turn`.
+/// Motion of a body of an impact: its pivot by `velocity`, and about that by `turn`.
 struct ImpactMotion {
   Vec3<double> velocity = Vec3<double>::Zero();
   Vec3<double> turn = Vec3<double>::Zero();   ///< rotation vector, radians per unit of time
-  Vec3<double> pivot = Vec3<double>::Zero();  ///< by default the origin of the shape's frame
+  Vec3<double> pivot = Vec3<double>::Zero();  ///< by default the origin of the body's frame
 };
 
-/// When two shapes that move and turn first touch, with proof (core/pair_motion/impact.h).
-struct ImpactQuery {
-  Shape a;
-  Shape b;
+/// When two bodies that move and turn first touch, with proof (core/pair_motion/impact.h).
+struct ImpactQuery : PairQuery {
   ImpactMotion motion_a;
   ImpactMotion motion_b;
   double t_max = 0;

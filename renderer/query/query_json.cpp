@@ -4,7 +4,7 @@
 #include "renderer/json/object_reader.h"
 #include "renderer/json/parse.h"
 #include "renderer/json/values.h"
-#include "renderer/member_json/shape_json.h"
+#include "renderer/query/read_body.h"
 
 namespace minkray {
 namespace {
@@ -18,10 +18,10 @@ class QueryReader {
  public:
   QueryReader(ObjectReader& object, MeshFiles& meshes) : object_(object), meshes_(meshes) {}
 
-  std::optional<Shape> shape(std::string_view key) {
-    const Json* json = object_.require(key, "a shape");
+  std::optional<QueryBody> body(std::string_view key) {
+    const Json* json = object_.require(key, "a shape, or an object with a mesh");
     if (!json) return std::nullopt;
-    return read_shape(*json, object_.path(key), object_.mistakes(), meshes_);
+    return read_body(*json, object_.path(key), object_.mistakes(), meshes_);
   }
 
   void vector(ObjectReader& from, std::string_view key, Vec3<double>& value, bool required) {
@@ -48,8 +48,8 @@ class QueryReader {
   }
 
   void read_ray(std::optional<Query>& query) {
-    const auto what = shape("shape");
-    RayQuery read{Point{}, {Vec3<double>::Zero(), Vec3<double>::Zero()}};
+    const auto what = body("shape");
+    RayQuery read{{}, {Vec3<double>::Zero(), Vec3<double>::Zero()}};
     if (const Json* json = object_.require("ray", "an object")) {
       ObjectReader ray(*json, object_.path("ray"), object_.mistakes());
       vector(ray, "origin", read.ray.origin, true);
@@ -58,13 +58,13 @@ class QueryReader {
       ray.finish();
     }
     if (!what) return;
-    read.shape = *what;
+    read.body = *what;
     query->kind = std::move(read);
   }
 
   void read_shapes(std::optional<Query>& query) {
-    const auto moving = shape("moving"), obstacle = shape("obstacle");
-    ShapeQuery read{Point{}, Point{}};
+    const auto moving = body("moving"), obstacle = body("obstacle");
+    ShapeQuery read;
     vector(object_, "direction", read.direction, true);
     vector(object_, "obstacle_direction", read.obstacle_direction, false);
     vector(object_, "turn", read.turn, false);
@@ -83,13 +83,13 @@ class QueryReader {
   }
 
   void read_distance(std::optional<Query>& query) {
-    const auto a = shape("a"), b = shape("b");
-    if (a && b) query->kind = DistanceQuery{*a, *b};
+    const auto a = body("a"), b = body("b");
+    if (a && b) query->kind = DistanceQuery{{*a, *b}};
   }
 
   void read_signed_distance(std::optional<Query>& query) {
-    const auto a = shape("a"), b = shape("b");
-    SignedDistanceQuery read{Point{}, Point{}};
+    const auto a = body("a"), b = body("b");
+    SignedDistanceQuery read;
     if (const Json* json = object_.find("at_most"))
       if (const auto number =
               read_number(*json, object_.path("at_most"), object_.mistakes(), Range::any))
@@ -104,8 +104,8 @@ class QueryReader {
   }
 
   void read_manifold(std::optional<Query>& query) {
-    const auto a = shape("a"), b = shape("b");
-    ManifoldQuery read{Point{}, Point{}, {}, {}};
+    const auto a = body("a"), b = body("b");
+    ManifoldQuery read;
     const auto number = [&](std::string_view key, std::optional<double>& value) {
       if (const Json* json = object_.find(key))
         value = read_number(*json, object_.path(key), object_.mistakes(), Range::not_negative);
@@ -117,6 +117,9 @@ class QueryReader {
     if (!a || !b) return;
     read.a = *a;
     read.b = *b;
+    for (const char* key : {"tilt", "within"})
+      if (read.has_mesh() && object_.find(key))
+        object_.mistakes().add(object_.path(key), "not allowed with a mesh");
     query->kind = std::move(read);
   }
 
@@ -135,8 +138,10 @@ class QueryReader {
   }
 
   void read_impact(std::optional<Query>& query) {
-    const auto a = shape("a"), b = shape("b");
-    ImpactQuery read{Point{}, Point{}, motion("motion_a"), motion("motion_b")};
+    const auto a = body("a"), b = body("b");
+    ImpactQuery read;
+    read.motion_a = motion("motion_a");
+    read.motion_b = motion("motion_b");
     if (object_.require("t_max", "a number")) t_max(object_, read.t_max);
     if (!a || !b) return;
     read.a = *a;
@@ -181,7 +186,7 @@ std::optional<Query> parse_query(std::string_view text, MeshFiles& meshes, Mista
   ObjectReader object(*json, JsonPath(), mistakes);
   if (!object.is_object()) return std::nullopt;
 
-  std::optional<Query> query(Query{{}, DistanceQuery{Point{}, Point{}}, {}});
+  std::optional<Query> query(Query{{}, DistanceQuery{}, {}});
   // Descriptive keys of a published case and its proof (tests/cases).
   object.allow({"was", "source", "numbers", "certificate"});
   if (const Json* name = object.find("name"))

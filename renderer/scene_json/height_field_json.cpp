@@ -42,9 +42,14 @@ std::shared_ptr<const TriangleMesh> read_height_field(const Json& json, const Js
   if (sizes)
     size = read_numbers(*sizes, object.path("size"), mistakes, file ? 3 : 2, Range::positive);
   if (rows) grid = read_rows(*rows, object.path("heights"), mistakes);
+  std::shared_ptr<const TriangleMesh> of_rows;
+  std::shared_ptr<const TriangleMesh>* mesh = &of_rows;
   if (file)
-    if (const auto name = read_string(*file, object.path("file"), mistakes))
+    if (const auto name = read_string(*file, object.path("file"), mistakes)) {
+      mesh = &files.terrain(*name, json.dump());
+      if (*mesh) return *mesh;
       grid = files.read_heights(*name, object.path("file"), mistakes);
+    }
   std::optional<double> bottom;
   bool is_good = true;
   if (written_bottom) {
@@ -55,7 +60,8 @@ std::shared_ptr<const TriangleMesh> read_height_field(const Json& json, const Js
   if (file)
     for (double& height : grid->heights) height *= (*size)[2];
   try {
-    return mesh_of({grid->heights, grid->rows, grid->columns, (*size)[0], (*size)[1], bottom});
+    return *mesh =
+               mesh_of({grid->heights, grid->rows, grid->columns, (*size)[0], (*size)[1], bottom});
   } catch (const std::invalid_argument& error) {
     mistakes.add(path, error.what());
     return nullptr;

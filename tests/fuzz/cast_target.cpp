@@ -157,8 +157,9 @@ std::string check_cast_query(std::string_view line) {
   const std::optional<Query> query = parse_query(line, meshes, mistakes);
   if (!query) return mistakes.text();
   const auto* cast = std::get_if<RayQuery>(&query->kind);
-  if (!cast) return "not a ray cast";
-  return check_ray(cast->shape, PreparedShape(cast->shape), cast->ray);
+  if (!cast || cast->has_mesh()) return "not a ray cast at a shape";
+  const Shape& shape = cast->body.shape;
+  return check_ray(shape, PreparedShape(shape), cast->ray);
 }
 
 std::string check_cast(std::string_view input) {

@@ -92,12 +92,17 @@ class Replays {
     const added = [];
     /** @type {Map<number, ShapeMesh>} */
     const shapes = new Map();
+    /** @type {Map<number, Body>} */
+    const bodies = new Map();
     for (const line of text.split('\n')) {
       if (line === '') continue;
       /** @type {Line} */
       const item = JSON.parse(line);
       if (item.kind === 'shape') {
-        shapes.set(item.shape, item.mesh);
+        const around = item.mesh.body === undefined ? undefined : bodies.get(item.mesh.body);
+        shapes.set(item.shape, { ...item.mesh, around });
+      } else if (item.kind === 'body') {
+        bodies.set(item.body, item.mesh);
       } else if (item.kind === 'pair') {
         const known = this.pairs.findIndex(p => p.a === item.pair.a && p.b === item.pair.b);
         if (known < 0) this.pairs.push(item.pair);

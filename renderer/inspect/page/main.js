@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The page: what is shown, and how it hangs together.
 
+/** @param {number | undefined} triangle of a mesh */
+function triangleText(triangle) {
+  return triangle === undefined ? '' : ', triangle ' + triangle;
+}
+
 class Inspector {
   /** @param {About} about @param {View} view @param {Replays} replays */
   constructor(about, view, replays) {
@@ -189,13 +194,13 @@ class Inspector {
       // The planes tell of the view as it is; a point within a pixel may have been answered otherwise.
       const i = this.picture.index(Math.floor(ray.at[0]), Math.floor(ray.at[1]));
       const path = this.about.paths[this.picture.plane('ray_path')[i]];
-      const what = name + ' at pixel ' + placeText(ray.at, ', ');
+      const what = name + triangleText(ray.triangle) + ' at pixel ' + placeText(ray.at, ', ');
       this.replay.open(rayPlay(ray.cast, ray.mesh, this.view.solvers[ray.solver].name, others, what, path), step, keepsLook);
     } else {
       const pair = await this.pairReplay();
       if (!pair) return this.replay.open(null, 0, false);
       element('pair').value = this.pair;
-      const a = this.about.objects[pair.a], b = this.about.objects[pair.b];
+      const a = this.about.objects[pair.a] + triangleText(pair.triangle_a), b = this.about.objects[pair.b] + triangleText(pair.triangle_b);
       if (this.mode === 'impact') {
         const cast = pair.impact;
         this.replay.open(rayPlay(cast, pair.mesh, 'auto', [{ name: 'auto', cast }], b + ' goes at ' + a + ', in the set A - B', ''), step, keepsLook);

@@ -7,11 +7,15 @@ const maps = [
   { name: 'iterations', text: 'iterations', kind: 'amount', plane: 'ray_iterations', unit: 'solver iterations per ray' },
   { name: 'supports', text: 'supports', kind: 'amount', plane: 'ray_supports', unit: 'support points per ray' },
   { name: 'nodes', text: 'nodes', kind: 'amount', plane: 'ray_nodes', unit: 'nodes visited per ray' },
+  { name: 'casts', text: 'casts', kind: 'amount', plane: 'ray_casts', unit: 'shapes and triangles cast at per ray' },
   { name: 'time', text: 'nanoseconds', kind: 'time', plane: 'ray_time', unit: 'nanoseconds per ray' },
   { name: 'path', text: 'which path answered', kind: 'path', plane: 'ray_path', unit: 'last stage asked' },
   { name: 'status', text: 'status', kind: 'status', plane: 'status', unit: 'answer of the cast that is shown' },
   { name: 'replayable', text: 'what can be replayed here', kind: 'replayable', plane: '', unit: '' },
 ];
+
+/** In the place of a triangle's number: of no mesh. */
+const noTriangle = 4294967295;
 
 class Picture {
   /** @param {HTMLCanvasElement} canvas @param {View} view @param {About} about */
@@ -229,15 +233,16 @@ class Picture {
     const found = status === 'hit' || status === 'inside';
     const below = lengthOf(planes.below[i]), above = lengthOf(planes.above[i]);
     const cost = (/** @type {string} */ name) => this.plane('ray_' + name)[i];
+    const triangle = found && planes.triangle && planes.triangle[i] !== noTriangle ? ', triangle ' + planes.triangle[i] : '';
     return {
-      object: planes.object[i] > 0 ? names[planes.object[i]] : '',
+      object: planes.object[i] > 0 ? names[planes.object[i]] + triangle : '',
       status,
       t: found ? planes.t[i] : null,
       bounds: found ? 't - ' + short(below, 2) + ' \u2026 t + ' + short(above, 2) : '-',
       normal: directionOf(planes.normal_u[i], planes.normal_v[i]),
       iterations: this.plane('iterations')[i],
       supports: this.plane('supports')[i],
-      cost: cost('iterations') + ' iterations, ' + cost('supports') + ' supports, ' + cost('nodes') + ' nodes, ' +
+      cost: cost('iterations') + ' iterations, ' + cost('supports') + ' supports, ' + cost('nodes') + ' nodes, ' + cost('casts') + ' casts, ' +
         short(nanosecondsOf(cost('time')), 2) + ' ns, answered by: ' + this.about.paths[cost('path')],
     };
   }

@@ -9,6 +9,27 @@ const caseTexts = [
   'v\u00b7r = 0: the plane runs along the ray and clips nothing, or all of it',
 ];
 
+/** The radius of what is seen at first: a shape, or a triangle and some of its mesh. @param {ShapeMesh} mesh @param {number} R */
+function radiusSeen(mesh, R) {
+  return mesh.around ? Math.max(R, Math.min(5000 * mesh.around.scale, 4 * R)) : R;
+}
+
+/** A triangle's corners. @param {MeshData} mesh @param {number} scale */
+function cornersOf(mesh, scale) {
+  return [0, 3, 6].map(i => times(scale, mesh.v.slice(i, i + 3)));
+}
+
+/** The direction square to a ray in which a triangle of a mesh faces it most; nothing if it faces the ray straight, or
+ *  for other shapes. @param {ShapeMesh} mesh @param {number[]} ray @returns {number[] | null} */
+function outwardOf(mesh, ray) {
+  if (!mesh.around || !mesh.inner) return null;
+  const [a, b, c] = cornersOf(mesh.inner, 1);
+  const n = unit(cross(minus(b, a), minus(c, a)));
+  const along = dot(n, ray);
+  const aside = times(along > 0 ? -1 : 1, minus(n, times(along, ray)));
+  return size(aside) > 1e-3 ? unit(aside) : null;
+}
+
 /** @param {Cast} cast @param {ShapeMesh} mesh @param {string} solver @param {{name: string, cast: Cast}[]} others
  *  @param {string} what @param {string} path what answered in the picture, or nothing @returns {Play} */
 function rayPlay(cast, mesh, solver, others, what, path) {
@@ -16,8 +37,9 @@ function rayPlay(cast, mesh, solver, others, what, path) {
   const [base, shift, perLength] = cast.t_of;
   const tOf = (/** @type {number | null} */ lambda) => lambda === null ? Infinity : base + (shift + lambda * perLength);
   const at = (/** @type {number} */ lambda) => plus(cast.s, times(lambda, cast.r));
-  const begin = Math.max(cast.lambda[0] === null ? -Infinity : cast.lambda[0], -1.7 * R);
-  const end = Math.min(cast.lambda[1] === null ? Infinity : cast.lambda[1], 1.7 * R);
+  const seen = radiusSeen(mesh, R);
+  const begin = Math.max(cast.lambda[0] === null ? -Infinity : cast.lambda[0], -1.7 * seen);
+  const end = Math.min(cast.lambda[1] === null ? Infinity : cast.lambda[1], 1.7 * seen);
   const steps = cast.steps;
   const found = cast.t !== undefined;
   const lambdaOf = (/** @type {number} */ t) => ((t - base) - shift) / perLength;
@@ -26,11 +48,12 @@ function rayPlay(cast, mesh, solver, others, what, path) {
     lambda === null ? otherwise : Math.min(Math.max(lambda, begin), end);
 
   const ray = unit(cast.r);
-  const up = unit(size(cast.s) > 1e-6 * R ? cast.s : across(ray)[0]);
+  const outward = outwardOf(mesh, ray);
+  const up = outward || unit(size(cast.s) > 1e-6 * R ? cast.s : across(ray)[0]);
   const side = unit(cross(ray, up));
-  // Obliquely from the side, the ray from left to right.
+  // Obliquely from the side, the ray from left to right; of a mesh from without.
   const right = unit(plus(times(0.92, ray), times(0.39, side)));
-  const tilted = unit(plus(up, times(0.3, side)));
+  const tilted = unit(plus(up, times(outward ? -0.5 : 0.3, side)));
   const look = { right, up: unit(minus(tilted, times(dot(tilted, right), right))) };
 
   /** @param {CastStep} step */
@@ -51,6 +74,8 @@ function rayPlay(cast, mesh, solver, others, what, path) {
     const upper = step ? clamp(step[4], end) : end;
     items.push({ kind: 'line', points: [at(begin), at(end)], colour: styleColour('faint'), width: 1, dash: [4, 4] });
     items.push({ kind: 'line', points: [at(lower), at(Math.max(lower, upper))], colour: styleColour('ray'), width: 3.5 });
+    if (mesh.around && mesh.inner)
+      items.push({ kind: 'area', points: cornersOf(mesh.inner, mesh.scale || 1), colour: styleColour('upper'), alpha: 0.4, outline: 1 });
     if (earlier)
       for (let i = 0; i < k; ++i) {
         if (size(steps[i][5]) > 0)
@@ -132,10 +157,12 @@ function rayPlay(cast, mesh, solver, others, what, path) {
     });
   };
   return {
-    mesh, radius: R, count: steps.length, flat: false, look, quantity: 't',
+    mesh, radius: seen, count: steps.length, flat: false, look, quantity: 't',
     summary: what + ': ' + cast.status + (found ? ', t = ' + whole(cast.t) : '') + ', ' + cast.iterations +
       ' iterations, ' + cast.supports + ' supports, by ' + solver +
-      (path === 'filter' ? '. In the picture the filter answered it, a closed form, without a step; this is the stage behind it' : '') +
+      (mesh.around ? '. In the picture the mesh\u2019s BVH and exact tests at triangles answered it, without a step; this is a cast at the triangle alone.' +
+        (mesh.around.coarse ? ' The mesh around it is drawn coarsely.' : '') :
+        path === 'filter' ? '. In the picture the filter answered it, a closed form, without a step; this is the stage behind it' : '') +
       (steps.length === 0 ? '. No support point was asked for: a bound of the shape told, or a closed form.' : ''),
     range: [tOf(begin), tOf(end)],
     answer: found ? /** @type {number} */ (cast.t) : null,

@@ -18,7 +18,7 @@ class Replay {
     element('next').addEventListener('click', () => this.go(this.step + 1));
     element('last').addEventListener('click', () => this.go(Infinity));
     element('play').addEventListener('click', () => this.run());
-    for (const id of ['show-inner', 'show-outer', 'show-planes', 'follow'])
+    for (const id of ['show-inner', 'show-outer', 'show-around', 'show-planes', 'follow'])
       element(id).addEventListener('change', () => this.draw());
     element('view-all').addEventListener('click', () => {
       element('follow').checked = false;
@@ -39,6 +39,7 @@ class Replay {
     slider.disabled = count < 2;
     if (play && !keepsLook) this.scene.look(play);
     if (play) this.scene.mesh = play.mesh;
+    element('around').hidden = !play || !play.mesh || !play.mesh.around;
     element('closing-text').textContent = play ? closingText(play) : '';
     element('table').innerHTML = play ? this.table(play) : '';
     this.go(step);
@@ -92,6 +93,7 @@ class Replay {
     scene.items = shown.items;
     scene.inner = element('show-inner').checked;
     scene.outer = element('show-outer').checked;
+    scene.around = element('show-around').checked;
     if (element('follow').checked && step > 0) {
       scene.centre = shown.focus;
       scene.zoom = play.radius / shown.focus_size;

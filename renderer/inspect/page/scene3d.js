@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A view of a convex shape and of points, lines and planes around it. All that has a surface is convex,
 // so that its far faces, then what is within, then its near faces are the right order: neither a depth
-// buffer nor a graphics card is needed. Projection is parallel: what is square to the ray looks so.
+// buffer nor a graphics card is needed. Only the mesh around a triangle is sorted by depth (body3d.js).
+// Projection is parallel: what is square to the ray looks so.
 
 class Scene3D {
   /** @param {HTMLCanvasElement} canvas */
@@ -20,6 +21,7 @@ class Scene3D {
     this.up = [0, 0, 1];
     this.inner = true;
     this.outer = true;
+    this.around = true;
     this.listen();
   }
 
@@ -141,6 +143,15 @@ class Scene3D {
       pen.restore();
     };
     const mesh = this.mesh;
+    if (mesh && mesh.around && this.around) {
+      faces.clearRect(0, 0, width, height);
+      drawBody(this, faces, mesh.around, mesh.at || [0, 0, 0]);
+      pen.save();
+      pen.resetTransform();
+      pen.globalAlpha = 0.4;
+      pen.drawImage(layer, 0, 0);
+      pen.restore();
+    }
     if (mesh && this.outer) put(mesh.outer, false, 0.16);
     if (mesh && this.inner) put(mesh.inner, false, 0.5);
     for (const item of this.items) this.drawItem(pen, item, 1);

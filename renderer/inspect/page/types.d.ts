@@ -41,11 +41,23 @@ interface MeshData {
   t: number[];
 }
 
+/** The mesh around a triangle; coordinates from the middle, in the mesh's frame. */
+interface Body extends MeshData {
+  scale: number;
+  middle: number[];
+  coarse: boolean;
+}
+
 interface ShapeMesh {
   rank: number;
   scale?: number;
   inner?: MeshData;
   outer?: MeshData;
+  /** Of a triangle: the number of its mesh, and the triangle's middle in the mesh's frame. */
+  body?: number;
+  at?: number[];
+  /** The mesh itself. */
+  around?: Body;
 }
 
 /** lambda, case, lambda_clip, lower, upper, v, p, w, simplex (numbers of steps, or points) */
@@ -75,6 +87,8 @@ interface RayLine {
   at: [number, number];
   solver: number;
   object: number;
+  /** Of a mesh. */
+  triangle?: number;
   shape: number;
   origin: number[];
   direction: number[];
@@ -85,6 +99,12 @@ interface ShapeLine {
   kind: 'shape';
   shape: number;
   mesh: ShapeMesh;
+}
+
+interface BodyLine {
+  kind: 'body';
+  body: number;
+  mesh: Body;
 }
 
 interface DistanceStep {
@@ -115,6 +135,9 @@ interface DistanceReplay {
 interface PairReplay {
   a: number;
   b: number;
+  /** Of meshes. */
+  triangle_a?: number;
+  triangle_b?: number;
   mesh: ShapeMesh;
   distance: DistanceReplay;
   impact: Cast;
@@ -126,7 +149,7 @@ interface PairLine {
   pair: PairReplay;
 }
 
-type Line = RayLine | ShapeLine | PairLine;
+type Line = RayLine | ShapeLine | BodyLine | PairLine;
 
 /** A line's ray, with its shape's mesh. */
 interface RayReplay extends RayLine {

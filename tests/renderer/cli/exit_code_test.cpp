@@ -59,7 +59,8 @@ TEST(Cli, certificates_are_summed_up_on_stderr) {
       "cast --certify '" + (source_folder() / "tests/cases/hard-casts.jsonl").string() + "'");
   EXPECT_EQ(cast.exit_code, 0);
   EXPECT_EQ(cast.err,
-            "certificates: 100 hold, 0 fail; 0 results have none (distances, shapes that turn)\n");
+            "certificates: 100 hold, 0 fail; 0 results have none (distances, shapes that turn, "
+            "moving meshes)\n");
   const TemporaryFolder folder;
   const std::string picture = folder / "certified.png";
   expect_exit(0,

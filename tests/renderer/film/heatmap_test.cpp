@@ -6,7 +6,10 @@
 #include <set>
 #include <sstream>
 
+#include "core/mesh/mesh_ray.h"
 #include "renderer/image/colour.h"
+#include "renderer/rays/camera.h"
+#include "tests/support/mesh_truth.h"
 #include "tests/support/messages.h"
 #include "tests/support/shifted.h"
 
@@ -85,6 +88,47 @@ TEST(Heatmap, status_tells_hit_inside_and_exhausted) {
   EXPECT_TRUE(statuses(field).contains(3));
   EXPECT_GT(field.work.exhausted, 0u);
   EXPECT_TRUE(has(heat_report(field, HeatChannel::status), "exhausted"));
+}
+
+/// Each ray meets the mesh's box once. Those that hit test at least the triangle that they hit, and
+/// no more than those whose boxes they meet.
+TEST(Heatmap, meshes_cost_nodes_and_a_cast_per_tested_triangle) {
+  const testing::Surface ring = testing::torus(24, 12);
+  Scene scene = two_balls();
+  EXPECT_EQ(default_channel(scene), HeatChannel::iterations);
+  scene.objects.clear();
+  Object object{"ring", Point(), {}, 0};
+  object.mesh = ring.shared();
+  scene.objects.push_back(object);
+  scene.camera.position = {0, -3, 3};
+  EXPECT_EQ(default_channel(scene), HeatChannel::nodes);
+  const HeatField casts = measure(scene, HeatChannel::casts),
+                  nodes = measure(scene, HeatChannel::nodes),
+                  status = measure(scene, HeatChannel::status);
+  const Camera camera(scene.camera, {60, 40});
+  const testing::MeshTruth truth(ring, {});
+  std::size_t hits = 0, passes = 0;
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 60; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * 60 + static_cast<std::size_t>(x);
+      const Ray<double> ray = camera.ray(x + 0.5, y + 0.5);
+      std::size_t met = 0;
+      PartCounts counts;
+      walk_triangles(*object.mesh, ray, counts, [&](std::uint32_t, SlabRay&) {
+        ++met;
+        return false;
+      });
+      const bool is_hit = truth.first_hit(ray).found();
+      ASSERT_EQ(status.values[i], is_hit ? 1.0f : 0.0f) << x << ' ' << y;
+      ASSERT_GE(casts.values[i], is_hit ? 1.0f : 0.0f);
+      ASSERT_LE(casts.values[i], static_cast<float>(met));
+      ASSERT_GE(nodes.values[i], is_hit ? 2.0f : 1.0f);
+      hits += is_hit ? 1 : 0;
+      passes += casts.values[i] == 0.0f ? 1 : 0;
+    }
+  EXPECT_GT(hits, 300u);
+  EXPECT_GT(passes, 300u);
+  EXPECT_EQ(casts.work.casts, casts.work.answered_by(Path::filter));
 }
 
 TEST(Heatmap, the_picture_holds_every_panel_and_a_scale) {
