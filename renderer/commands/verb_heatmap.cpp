@@ -43,7 +43,7 @@ void run(HeatmapVerbOptions& options) {
   const Scene scene = options.image.load_scene();
   const HeatChannelDescription& shown =
       options.channel ? channel_of(*options.channel) : description_of(default_channel(scene));
-  const HeatChannel channel = shown.channel;
+  const HeatChannel channel = shown.kind;
   const RenderOptions render_options = options.image.render_options(scene, solvers.size());
   options.image.tell_output();
 
