@@ -18,8 +18,8 @@ namespace {
 /// Least number of rays to trace together; fewer are faster one by one.
 constexpr std::size_t least_together = 4;
 
-/// Whether rays in different directions are traced together. With more meshes and few rays of each,
-/// single rays are as fast.
+/// True if rays in different directions are to be traced together. With more meshes and few rays of
+/// each, single rays are as fast.
 bool are_worth_rounds(std::size_t rays, std::size_t meshes) {
   constexpr std::size_t most_meshes = 4, least_of_mesh = 32;
   return meshes <= most_meshes || rays >= least_of_mesh * meshes;
