@@ -35,7 +35,7 @@ class RaysAtMesh {
   void each_closest(Take&& take) const {
     for (std::size_t i = 0; i < count_; ++i) {
       if (!hits_[i].found()) continue;
-      if (const MeshCast cast = closest(i); cast.cast.status != Status::miss)
+      if (const PartCast cast = closest(i); cast.cast.status != Status::miss)
         take(numbers_[i], cast);
     }
   }
@@ -43,7 +43,7 @@ class RaysAtMesh {
   void find_any(std::span<std::uint8_t> met, PartCounts& counts);
 
  private:
-  MeshCast closest(std::size_t i) const;
+  PartCast closest(std::size_t i) const;
 
   const PosedMesh* posed_ = nullptr;
   std::size_t count_ = 0;
