@@ -11,6 +11,13 @@ namespace {
 /// A box number contains the numbers of a node and of a child; none of these equals `whole`.
 static_assert(bvh_width == 8 && EightBoxes::most == 8);
 
+/// Largest n . p over the shape's points p, relative to its middle.
+double reach_from_middle(const ContactShape& shape, const Vec3<double>& n) {
+  const Vec3<double> d = shape.turn().transpose() * n;
+  return d.dot(support_of_core<CoreKind::other>(shape.core(), d).point) +
+         (shape.core().radius + shape.core().rounding) * n.norm();
+}
+
 /// Half extents about the shape's middle, along the axes of its frame.
 Vec3<double> half_extents(const ContactShape& shape, Vec3<double>& middle) {
   Vec3<double> half;
@@ -30,11 +37,17 @@ Vec3<double> half_extents(const ContactShape& shape, Vec3<double>& middle) {
 
 BodyTree::BodyTree(const PartsBody& body) : body_(body), middle_(middle_of(body)) {
   if (mesh()) {
+    bvh_ = &mesh()->bvh();
     slabs_ = &mesh()->slabs();
     whole_ = about_middle(mesh()->bounds());
+  } else if (const Compound* const compound = body.compound()) {
+    bvh_ = &compound->bvh();
+    whole_ = about_middle(compound->bounds());
+  }
+  if (bvh_) {
     radius_ = whole_.half.norm();
-    // Boxes of floats may be larger than a mesh of the least size.
-    const BvhNode& root = mesh()->bvh().nodes[0];
+    // Boxes of floats may be larger than a body of the least size.
+    const BvhNode& root = bvh_->nodes[0];
     for (int i = 0; i < bvh_width && root.children[i] != BvhNode::none; ++i) {
       const MiddleBox box = about_middle(root.box(i));
       const double reach = (box.middle.cwiseAbs() + box.half).norm();
@@ -48,8 +61,7 @@ BodyTree::BodyTree(const PartsBody& body) : body_(body), middle_(middle_of(body)
 
 int BodyTree::open(Box box, EightBoxes& boxes, Box* children) const {
   const std::uint32_t number = inside(box);
-  const BvhNode& node = mesh()->bvh().nodes[number];
-  const NodeSlabs& slabs = slabs_->of(number);
+  const BvhNode& node = bvh_->nodes[number];
   int count = 0;
   while (count < bvh_width && node.children[count] != BvhNode::none) ++count;
   for (int i = 0; i < count; ++i) children[i] = number << 3 | static_cast<std::uint32_t>(i);
@@ -59,9 +71,12 @@ int BodyTree::open(Box box, EightBoxes& boxes, Box* children) const {
                    upper = double{node.planes[1][axis][i]} - middle_[axis];
       boxes.middle[axis][i] = (lower + upper) / 2;
       boxes.half[axis][i] = (upper - lower) / 2;
-      boxes.normal[axis][i] = double{slabs.normals[axis][i]};
+      boxes.normal[axis][i] = 0;
     }
+  if (!slabs_) return count;
+  const NodeSlabs& slabs = slabs_->of(number);
   for (int i = 0; i < bvh_width; ++i) {
+    for (int axis = 0; axis < 3; ++axis) boxes.normal[axis][i] = double{slabs.normals[axis][i]};
     boxes.low[i] = double{slabs.low[i]};
     boxes.high[i] = double{slabs.high[i]};
   }
@@ -70,9 +85,12 @@ int BodyTree::open(Box box, EightBoxes& boxes, Box* children) const {
 
 int BodyTree::open_leaf(Box box, EightBoxes& boxes, std::uint32_t* parts) const {
   int count = 1;
-  if (!mesh()) {
+  if (is_shape()) {
     boxes.set(0, whole_);
     parts[0] = 0;
+  } else if (!mesh()) {
+    parts[0] = inside(box) & ~BvhNode::leaf;
+    boxes.set(0, about_middle(body_.compound()->bounds_of_part(parts[0])));
   } else {
     const MeshLeaf& leaf = mesh()->leaves()[inside(box) & ~BvhNode::leaf];
     count = leaf.size();
@@ -100,11 +118,15 @@ void BodyTree::open_leaf(Box box, EightTriangles& triangles, const Turned* at) c
 }
 
 double BodyTree::reach_along(const Vec3<double>& n) const {
-  if (mesh()) return minkray::reach_along(whole_, n);
-  const ContactShape& shape = *body_.shape();
-  const Vec3<double> d = shape.turn().transpose() * n;
-  return d.dot(support_of_core<CoreKind::other>(shape.core(), d).point) +
-         (shape.core().radius + shape.core().rounding) * n.norm();
+  if (!is_shape()) return minkray::reach_along(whole_, n);
+  return reach_from_middle(*body_.shape(), n);
+}
+
+double BodyTree::reach_of_part(std::uint32_t part, const Vec3<double>& n) const {
+  if (mesh()) return minkray::reach_along(triangle(part), n);
+  const ContactShape& shape = body_.compound()->contact(part);
+  return n.dot((shape.exact_middle() - TwoFoldVec3<double>(middle_)).rounded()) +
+         reach_from_middle(shape, n);
 }
 
 }  // namespace minkray

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A body prepared for traversals of pairs of parts (pair_walk.h): nested boxes relative to the
-// body's middle, down to leaves of up to eight convex parts. A shape is one leaf with one part.
+// body's middle, down to leaves of up to eight triangles, or of one part of a compound. A shape is
+// one leaf with one part.
 #pragma once
 
 #include "core/parts/box_gaps.h"
@@ -15,6 +16,8 @@ class BodyTree {
 
   const PartsBody& body() const { return body_; }
   const TriangleMesh* mesh() const { return body_.mesh(); }
+  /// True for a shape, whose only box is the whole.
+  bool is_shape() const { return !bvh_; }
   /// Middle of the body, in its frame.
   const Vec3<double>& middle() const { return middle_; }
   /// Radius of a ball around the middle that contains the body.
@@ -25,7 +28,7 @@ class BodyTree {
   using Box = std::uint32_t;
   static constexpr Box whole = ~Box{0};  ///< the body's own box
 
-  bool is_leaf(Box box) const { return !mesh() || (inside(box) & BvhNode::leaf) != 0; }
+  bool is_leaf(Box box) const { return is_shape() || (inside(box) & BvhNode::leaf) != 0; }
   MiddleBox bounds(Box box) const {
     return box == whole ? whole_ : child(box >> 3, static_cast<int>(box & 7));
   }
@@ -45,13 +48,15 @@ class BodyTree {
             mesh()->corner(part, 2) - middle_};
   }
   /// Largest n . p over the body's points p, relative to the body's middle and in the body's frame.
-  /// For a mesh: over the points of its box.
+  /// For a mesh or compound: over the points of its box.
   double reach_along(const Vec3<double>& n) const;
+  /// Upper bound of n . p over the points p of a part of a mesh or compound.
+  double reach_of_part(std::uint32_t part, const Vec3<double>& n) const;
 
  private:
   /// Number of a node, or number of a leaf with the leaf bit set.
   std::uint32_t inside(Box box) const {
-    return box == whole ? 0 : mesh()->bvh().nodes[box >> 3].children[box & 7];
+    return box == whole ? 0 : bvh_->nodes[box >> 3].children[box & 7];
   }
   template <class T>
   MiddleBox about_middle(const Bounds<T>& box) const {
@@ -64,7 +69,8 @@ class BodyTree {
   }
 
   MiddleBox child(std::uint32_t node, int number) const {
-    MiddleBox box = about_middle(mesh()->bvh().nodes[node].box(number));
+    MiddleBox box = about_middle(bvh_->nodes[node].box(number));
+    if (!slabs_) return box;
     const NodeSlabs& slabs = slabs_->of(node);
     box.normal = slabs.normal(number).cast<double>();
     box.low = double{slabs.low[number]};
@@ -73,7 +79,8 @@ class BodyTree {
   }
 
   PartsBody body_;
-  const MeshSlabs* slabs_ = nullptr;
+  const Bvh* bvh_ = nullptr;          ///< null for a shape
+  const MeshSlabs* slabs_ = nullptr;  ///< null unless the body is a mesh
   Vec3<double> middle_;
   MiddleBox whole_;
   double radius_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes a shape of a part of a body: a triangle of a mesh, or the shape itself.
+// Makes a shape of a part of a body: a triangle of a mesh, a part of a compound, or the shape
+// itself.
 #pragma once
 
 #include <optional>
@@ -13,13 +14,14 @@ namespace minkray {
 class OnePart {
  public:
   OnePart(const PartsBody& body, std::uint32_t part)
-      : shape_(body.shape()), number_(body.mesh() ? part : no_part) {
+      : shape_(body.compound() ? &body.compound()->contact(part) : body.shape()),
+        number_(body.shape() ? no_part : part) {
     if (const TriangleMesh* mesh = body.mesh())
       triangle_.emplace(mesh->corner(part, 0), mesh->corner(part, 1), mesh->corner(part, 2));
   }
 
   const ContactShape& shape() const { return triangle_ ? triangle_->shape() : *shape_; }
-  /// Number of the triangle; no_part for a shape.
+  /// Number of the part; no_part for a shape.
   std::uint32_t number() const { return number_; }
 
  private:

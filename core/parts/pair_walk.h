@@ -31,8 +31,8 @@ class PairWalk {
     has_direction_ = true;
     n_ = n;
     n_in_b_ = sight_.b_in_a.turn.transpose() * n;
-    if (!a_.mesh()) up_a_ = a_.reach_along(n_);
-    if (!b_.mesh()) down_b_ = b_.reach_along(-n_in_b_);
+    if (a_.is_shape()) up_a_ = a_.reach_along(n_);
+    if (b_.is_shape()) down_b_ = b_.reach_along(-n_in_b_);
   }
   bool has_direction() const { return has_direction_; }
   const Vec3<double>& direction() const { return n_; }
@@ -65,9 +65,9 @@ class PairWalk {
     }
   };
 
-  double up(const MiddleBox& box) const { return a_.mesh() ? reach_along(box, n_) : up_a_; }
+  double up(const MiddleBox& box) const { return a_.is_shape() ? up_a_ : reach_along(box, n_); }
   double down(const MiddleBox& box) const {
-    return b_.mesh() ? reach_along(box, -n_in_b_) : down_b_;
+    return b_.is_shape() ? down_b_ : reach_along(box, -n_in_b_);
   }
   double gap_along_direction(const MiddleBox& a, const MiddleBox& b) const {
     return n_.dot(sight_.b_in_a.shift) - down(b) - up(a);

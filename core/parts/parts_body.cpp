@@ -15,6 +15,12 @@ Bounds<double> bounds_of(const PartsBody& body, const Affine<double>& pose) {
         reach + rounding * (middle.cwiseAbs() + Vec3<double>::Constant(body.mesh()->reach()));
     return {middle - around, middle + around};
   }
+  if (const Compound* const compound = body.compound()) {
+    Bounds<double> bounds;
+    for (std::size_t i = 0; i < compound->size(); ++i)
+      bounds.extend(bounds_of(PartsBody(compound->contact(i)), pose));
+    return bounds;
+  }
   const PlacedCore frame = placed(*body.shape(), pose);
   const ShapeCore& core = body.shape()->core();
   Bounds<double> bounds;
@@ -33,11 +39,14 @@ Bounds<double> bounds_of(const PartsBody& body, const Affine<double>& pose) {
 
 double reach_of(const PartsBody& body) {
   if (body.mesh()) return body.mesh()->reach();
+  if (body.compound()) return body.compound()->reach();
   return body.shape()->ball_radius() + body.shape()->offset() + body.shape()->core().rounding;
 }
 
 Vec3<double> middle_of(const PartsBody& body) {
-  return body.mesh() ? body.mesh()->bounds().centre() : body.shape()->middle();
+  return body.mesh()       ? body.mesh()->bounds().centre()
+         : body.compound() ? body.compound()->bounds().centre()
+                           : body.shape()->middle();
 }
 
 }  // namespace minkray

@@ -12,7 +12,7 @@ namespace {
 /// Returns false if the result belongs to no pair of parts: one body is inside the other, or they
 /// miss.
 bool has_parts(const PartPair& parts, const PartsBody& a, const PartsBody& b) {
-  return (!a.mesh() || parts.a != no_part) && (!b.mesh() || parts.b != no_part);
+  return (a.shape() || parts.a != no_part) && (b.shape() || parts.b != no_part);
 }
 
 /// True if a vertex other than the lowest one may be as low. `found` is of the posed mesh and a
@@ -31,6 +31,37 @@ bool has_other_lowest(const TriangleMesh& mesh, const Affine<double>& pose,
       if (length > near && up.dot(to) <= (tilt + drift.turn) * length + near) return true;
     }
   return false;
+}
+
+/// Derivative for the lowest part of a compound; a ridge if another part may be as low.
+PairDerivative derivative_of_lowest(const Vec3<double>& origin, const Compound& compound,
+                                    const Affine<double>& pose, const SignedDistance& found,
+                                    PairDerivativeError* error, const Drift& drift) {
+  const PlacedPlane plane = {found.normal, TwoFoldVec3<double>(found.point_a)};
+  const auto height_of = [&](std::size_t i) {
+    const ContactShape& part = compound.contact(i);
+    return distance_to_half_space(plane, part, pose.linear, placed_middle(part, pose)).value;
+  };
+  const double near = 1e-12 * compound.reach() + drift.turn * compound.reach() +
+                      8 * std::numeric_limits<double>::epsilon() * pose.translation.norm();
+  double least = std::numeric_limits<double>::infinity(), next = least;
+  std::size_t lowest = 0;
+  for (std::size_t i = 0; i < compound.size(); ++i) {
+    const double height = height_of(i);
+    if (height < least) {
+      next = least;
+      least = height;
+      lowest = i;
+    } else {
+      next = std::min(next, height);
+    }
+  }
+  PairDerivative derivative =
+      derivative_at_half_space(origin, compound.contact(lowest), pose, found, error, drift);
+  if (derivative.is_ridge || next > least + 2 * near) return derivative;
+  derivative.is_ridge = true;
+  if (error) *error = {};
+  return derivative;
 }
 
 }  // namespace
@@ -56,6 +87,7 @@ PairDerivative derivative_at_half_space(const Vec3<double>& origin, const PartsB
                                         const Affine<double>& pose_b, const SignedDistance& found,
                                         PairDerivativeError* error, const Drift& drift) {
   if (b.shape()) return derivative_at_half_space(origin, *b.shape(), pose_b, found, error, drift);
+  if (b.compound()) return derivative_of_lowest(origin, *b.compound(), pose_b, found, error, drift);
   // A half-space sees the lowest vertex only.
   static const ContactShape point{Shape(Point())};
   PairDerivative derivative = derivative_at_half_space(origin, point, pose_b, found, error, drift);

@@ -21,7 +21,7 @@ ContactManifold contact_manifold(const PartsBody& a, const Affine<double>& pose_
 PairDerivative derivative_of(const PartsBody& a, const Affine<double>& pose_a, const PartsBody& b,
                              const Affine<double>& pose_b);
 /// Same as derivative_at_half_space() for shapes. A mesh is on a ridge if several vertices are
-/// lowest.
+/// lowest, a compound if several parts are.
 PairDerivative derivative_at_half_space(const Vec3<double>& origin, const PartsBody& b,
                                         const Affine<double>& pose_b, const SignedDistance& found,
                                         PairDerivativeError* error = nullptr,

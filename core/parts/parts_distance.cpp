@@ -11,18 +11,26 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Any point of the body, in its frame.
-Vec3<double> point_of(const PartsBody& body) {
-  return body.mesh() ? body.mesh()->corner(0, 0) : body.shape()->middle();
+/// Some points of the body, in its frame: one per piece of it that a mesh may enclose alone.
+std::vector<Vec3<double>> points_of(const PartsBody& body) {
+  if (body.mesh()) return {body.mesh()->corner(0, 0)};
+  if (body.shape()) return {body.shape()->middle()};
+  std::vector<Vec3<double>> points;
+  for (std::size_t i = 0; i < body.size(); ++i)
+    points.push_back(body.compound()->contact(i).middle());
+  return points;
 }
 
 std::optional<Vec3<double>> point_held_by(const PartsBody& one, const Affine<double>& pose,
                                           const PartsBody& other,
                                           const Affine<double>& pose_other) {
-  if (!one.mesh()) return {};  // a convex shape is solid: the search finds triangles inside it
-  const Vec3<double> point = pose_other(point_of(other));
-  const Vec3<double> seen = pose.linear.transpose() * (point - pose.translation);
-  return is_within(*one.mesh(), seen) ? std::optional(point) : std::nullopt;
+  if (!one.mesh()) return {};  // convex parts are solid: the search finds parts inside them
+  for (const Vec3<double>& own : points_of(other)) {
+    const Vec3<double> point = pose_other(own);
+    const Vec3<double> seen = pose.linear.transpose() * (point - pose.translation);
+    if (is_within(*one.mesh(), seen)) return point;
+  }
+  return {};
 }
 
 /// Least distance over the pairs of parts that a traversal visits.
@@ -65,13 +73,15 @@ class LeastDistance {
   bool is_crossed() const { return is_crossed_; }
 
  private:
-  double limit() const { return std::min(best_.upper, enough_); }
+  /// Parts with a common edge or vertex, or that touch along a plane, have equal distances: a lower
+  /// bound within `same_` of the best upper bound is enough, without another exact test.
+  double limit() const { return std::min(best_.upper - same_, enough_); }
 
   /// True if a pair with this lower bound needs no closer test.
-  bool is_enough(double lower) const { return lower > limit() || lower >= best_.upper - same_; }
+  bool is_enough(double lower) const { return lower > limit(); }
 
   static bool is_part(const BodyTree& tree, std::uint32_t part) {
-    return tree.mesh() ? part < tree.mesh()->size() : part == no_part;
+    return tree.is_shape() ? part == no_part : part < tree.body().size();
   }
   bool visit_first(const PartPair& first) {
     if (!a_.mesh() || !b_.mesh()) return visit_by_search(first.a, first.b);
@@ -150,7 +160,7 @@ class LeastDistance {
     return visit_by_search(of_a, of_b);
   }
 
-  /// Runs GJK: for a mesh and a convex shape, and for triangles that nearly touch or cross.
+  /// Runs GJK: unless both bodies are meshes, and for triangles that nearly touch or cross.
   bool visit_by_search(std::uint32_t of_a, std::uint32_t of_b) {
     if (walk_.has_direction()) {
       const double lower = gap_along_direction(of_a, of_b) - sight_.rounding;
@@ -170,7 +180,8 @@ class LeastDistance {
     if (found.upper < best_.upper) {
       best_ = found;
       parts_ = {part_a.number(), part_b.number()};
-      if (found.lower > 0) walk_.set_direction(sight_.turn_a.transpose() * found.normal);
+      if (!found.normal.isZero(0))
+        walk_.set_direction((sight_.turn_a.transpose() * found.normal).normalized());
     }
     is_crossed_ = found.status == SignedStatus::overlapping;
     return is_crossed_;
@@ -179,9 +190,9 @@ class LeastDistance {
   /// Gap between planes perpendicular to the walk's direction.
   double gap_along_direction(std::uint32_t of_a, std::uint32_t of_b) const {
     const Vec3<double>& n = walk_.direction();
-    const double up_a = a_.mesh() ? reach_along(a_.triangle(of_a), n) : walk_.up_a();
+    const double up_a = a_.is_shape() ? walk_.up_a() : a_.reach_of_part(of_a, n);
     const double down_b =
-        b_.mesh() ? reach_along(b_.triangle(of_b), -(sight_.a_in_b.turn * n)) : walk_.down_b();
+        b_.is_shape() ? walk_.down_b() : b_.reach_of_part(of_b, -(sight_.a_in_b.turn * n));
     return n.dot(sight_.b_in_a.shift) - down_b - up_a;
   }
 
@@ -195,8 +206,6 @@ class LeastDistance {
   const Sight sight_;
   PairWalk walk_;
   const double near_;  ///< bounds this close to each other have converged
-  /// Triangles with a common edge or vertex can have equal distances: a lower bound within `same_`
-  /// of the best upper bound is enough, without another exact test.
   const double same_ = 4 * sight_.rounding;
   double enough_ = infinity;
   SignedDistance best_;
@@ -220,11 +229,12 @@ bool is_surely_within(const PartsBody& body, const Affine<double>& pose,
   return distance.run(infinity, nullptr, {}).lower > least;
 }
 
-/// Returns one of some points of a convex shape that is inside the mesh.
+/// Returns one of some points of a convex part that is inside the mesh.
 std::optional<Vec3<double>> point_of_shape_within(const ContactShape& shape,
                                                   const Affine<double>& pose, const PartsBody& mesh,
                                                   const Affine<double>& pose_mesh) {
   constexpr double nearly = 1 - 0x1p-10;
+  if (!(shape.core().ball > 0)) return {};  // a point: it was tested already
   const Vec3<double> middle = middle_in_world(shape, pose);
   const Mat3<double> turn = turn_in_world(shape, pose);
   for (int i = 0; i < 6; ++i) {
@@ -236,6 +246,54 @@ std::optional<Vec3<double>> point_of_shape_within(const ContactShape& shape,
   return {};
 }
 
+std::optional<Vec3<double>> point_of_parts_within(const PartsBody& body, const Affine<double>& pose,
+                                                  const PartsBody& mesh,
+                                                  const Affine<double>& pose_mesh) {
+  if (body.shape()) return point_of_shape_within(*body.shape(), pose, mesh, pose_mesh);
+  for (std::size_t i = 0; i < body.size(); ++i)
+    if (const auto point =
+            point_of_shape_within(body.compound()->contact(i), pose, mesh, pose_mesh))
+      return point;
+  return {};
+}
+
+Vec3<double> middle_of_part(const TriangleMesh& mesh, std::uint32_t part) {
+  return (mesh.corner(part, 0) + mesh.corner(part, 1) + mesh.corner(part, 2)) / 3;
+}
+
+/// Appends up to `most` triangles below a node whose middles are in the box, from as many branches
+/// of the BVH as possible. Returns their number.
+std::size_t add_parts_in(const TriangleMesh& mesh, std::uint32_t what, const Bounds<double>& box,
+                         std::size_t most, std::vector<std::uint32_t>& parts) {
+  const auto holds = [&](const Vec3<double>& point) {
+    return (point.array() >= box.lower.array()).all() && (point.array() <= box.upper.array()).all();
+  };
+  std::size_t found = 0;
+  if ((what & BvhNode::leaf) != 0) {
+    const MeshLeaf& leaf = mesh.leaves()[what & ~BvhNode::leaf];
+    for (int i = 0; i < leaf.size() && found < most; ++i) {
+      if (!holds(middle_of_part(mesh, leaf.triangles[i]))) continue;
+      parts.push_back(leaf.triangles[i]);
+      ++found;
+    }
+    return found;
+  }
+  const BvhNode& node = mesh.bvh().nodes[what];
+  std::uint32_t children[bvh_width];
+  std::size_t count = 0;
+  for (int i = 0; i < bvh_width && node.children[i] != BvhNode::none; ++i) {
+    const Bounds<float> child = node.box(i);
+    if ((child.lower.cast<double>().array() <= box.upper.array()).all() &&
+        (child.upper.cast<double>().array() >= box.lower.array()).all())
+      children[count++] = node.children[i];
+  }
+  for (std::size_t i = 0; i < count && found < most; ++i) {
+    const std::size_t share = (most - found + count - i - 1) / (count - i);
+    found += add_parts_in(mesh, children[i], box, share, parts);
+  }
+  return found;
+}
+
 /// Returns a point on the surface of `one`, or a little below it, that is inside both meshes. Tries
 /// the middles of some triangles.
 std::optional<Vec3<double>> point_of_mesh_within(const PartsBody& one, const Affine<double>& pose,
@@ -244,22 +302,16 @@ std::optional<Vec3<double>> point_of_mesh_within(const PartsBody& one, const Aff
   constexpr std::size_t most_tries = 24;
   constexpr double below = 0x1p-10;
   const TriangleMesh& mesh = *one.mesh();
-  const Bounds<double> box = bounds_of(other, pose_other);
+  const Mat3<double> turn = pose.linear.transpose();
+  const Affine<double> other_in_one{turn * pose_other.linear,
+                                    turn * (pose_other.translation - pose.translation)};
   std::vector<std::uint32_t> near;
-  const auto middle_of_part = [&](std::uint32_t part) {
-    return Vec3<double>((mesh.corner(part, 0) + mesh.corner(part, 1) + mesh.corner(part, 2)) / 3);
-  };
-  for (std::uint32_t part = 0; part < mesh.size(); ++part) {
-    const Vec3<double> middle = pose(middle_of_part(part));
-    if ((middle.array() >= box.lower.array()).all() && (middle.array() <= box.upper.array()).all())
-      near.push_back(part);
-  }
-  const std::size_t step = near.size() / most_tries + 1;
-  for (std::size_t i = 0; i < near.size(); i += step) {
-    const Vec3<double> middle = middle_of_part(near[i]);
+  add_parts_in(mesh, 0, bounds_of(other, other_in_one), most_tries, near);
+  for (const std::uint32_t part : near) {
+    const Vec3<double> middle = middle_of_part(mesh, part);
     const Vec3<double> on = pose(middle);
     if (is_surely_within(other, pose_other, on)) return on;
-    const Vec3<double> in = pose(middle - below * mesh.reach() * mesh.normal(near[i]));
+    const Vec3<double> in = pose(middle - below * mesh.reach() * mesh.normal(part));
     if (is_surely_within(other, pose_other, in) && is_surely_within(one, pose, in)) return in;
   }
   return {};
@@ -268,8 +320,9 @@ std::optional<Vec3<double>> point_of_mesh_within(const PartsBody& one, const Aff
 /// Returns a point inside both bodies though no two parts surely cross: edges may lie on edges.
 std::optional<Vec3<double>> common_point(const PartsBody& a, const Affine<double>& pose_a,
                                          const PartsBody& b, const Affine<double>& pose_b) {
-  if (!a.mesh()) return point_of_shape_within(*a.shape(), pose_a, b, pose_b);
-  if (!b.mesh()) return point_of_shape_within(*b.shape(), pose_b, a, pose_a);
+  if (!a.mesh() && !b.mesh()) return {};
+  if (!a.mesh()) return point_of_parts_within(a, pose_a, b, pose_b);
+  if (!b.mesh()) return point_of_parts_within(b, pose_b, a, pose_a);
   if (!a.mesh()->is_closed() || !b.mesh()->is_closed()) return {};
   const auto of_a = point_of_mesh_within(a, pose_a, b, pose_b);
   return of_a ? of_a : point_of_mesh_within(b, pose_b, a, pose_a);
@@ -292,7 +345,7 @@ SignedDistance signed_distance(const PartsBody& a, const Affine<double>& pose_a,
                                const Affine<double>& pose_b, const SignedDistanceOptions& options,
                                PartPair* parts, PartPair first) {
   if (parts) *parts = {};
-  if (!a.mesh() && !b.mesh())
+  if (a.shape() && b.shape())
     return signed_distance(*a.shape(), pose_a, *b.shape(), pose_b, options);
   // If one body is inside the other, the status is known: search only for parts that cross (limit
   // 0).

@@ -12,7 +12,7 @@ Impact first_impact(const PartsBody& body_a, const RigidMotion& motion_a, const 
                     const RigidMotion& motion_b, double t_max, const ImpactOptions& options,
                     PartPair* parts) {
   if (parts) *parts = {};
-  if (!body_a.mesh() && !body_b.mesh())
+  if (body_a.shape() && body_b.shape())
     return first_impact(*body_a.shape(), motion_a, *body_b.shape(), motion_b, t_max, options);
   EarliestImpact first = nothing_met(t_max);
   if (point_within(body_a, motion_a.pose, body_b, motion_b.pose)) {

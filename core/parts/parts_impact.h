@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// First contact of two moving bodies, at least one a mesh: the earliest contact of a part of one
-// body and a part of the other.
+// First contact of two moving bodies that are not both shapes: the earliest contact of a part of
+// one body and a part of the other.
 #pragma once
 
 #include "core/pair_motion/impact.h"

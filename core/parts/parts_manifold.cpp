@@ -134,7 +134,7 @@ ContactManifold contact_manifold(const PartsBody& a, const Affine<double>& pose_
                                  const PartsBody& b, const Affine<double>& pose_b) {
   PartPair parts;
   signed_distance(a, pose_a, b, pose_b, {}, &parts);
-  if ((a.mesh() && parts.a == no_part) || (b.mesh() && parts.b == no_part)) return {};
+  if ((!a.shape() && parts.a == no_part) || (!b.shape() && parts.b == no_part)) return {};
   const ManifoldOptions options;
   const BodyTree tree_a(a), tree_b(b);
   const Sight sight(tree_a, pose_a, tree_b, pose_b);

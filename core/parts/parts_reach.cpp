@@ -53,14 +53,29 @@ Furthest furthest_corner(const TriangleMesh& mesh, const Vec3<double>& d) {
   return best;
 }
 
+/// Upper bound of n . p over the shape's points p, relative to its middle.
+double reach_about_middle(const ContactShape& shape, const Mat3<double>& linear,
+                          const Vec3<double>& n) {
+  const Vec3<double> d = turn_in_world(shape, linear).transpose() * n;
+  const ShapeCore& core = shape.core();
+  return d.dot(support_of_core<CoreKind::other>(core, d).point) + core.radius +
+         core_rounding * (core.ball + core.radius) + core.rounding;
+}
+
 }  // namespace
 
 double reach_along(const PartsBody& body, const Mat3<double>& linear, const Vec3<double>& n) {
-  if (!body.mesh()) {
-    const Vec3<double> d = turn_in_world(*body.shape(), linear).transpose() * n;
-    const ShapeCore& core = body.shape()->core();
-    return d.dot(support_of_core<CoreKind::other>(core, d).point) + core.radius +
-           core_rounding * (core.ball + core.radius) + core.rounding;
+  if (body.shape()) return reach_about_middle(*body.shape(), linear, n);
+  if (const Compound* const compound = body.compound()) {
+    const Vec3<double> middle = middle_of(body);
+    double most = -std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < compound->size(); ++i) {
+      const ContactShape& part = compound->contact(i);
+      const Vec3<double> from_middle =
+          (part.exact_middle() - TwoFoldVec3<double>(middle)).rounded();
+      most = std::max(most, n.dot(linear * from_middle) + reach_about_middle(part, linear, n));
+    }
+    return most + core_rounding * compound->reach();
   }
   const TriangleMesh& mesh = *body.mesh();
   const Vec3<double> d = linear.transpose() * n;
@@ -72,6 +87,19 @@ SignedDistance distance_to_half_space(const PlacedPlane& plane, const PartsBody&
   if (body.shape())
     return distance_to_half_space(plane, *body.shape(), pose.linear,
                                   placed_middle(*body.shape(), pose));
+  if (const Compound* const compound = body.compound()) {
+    SignedDistance nearest;
+    for (std::size_t i = 0; i < compound->size(); ++i) {
+      const ContactShape& part = compound->contact(i);
+      const SignedDistance found =
+          distance_to_half_space(plane, part, pose.linear, placed_middle(part, pose));
+      if (found.is_unknown()) return found;
+      const double lower = i == 0 ? found.lower : std::min(nearest.lower, found.lower);
+      if (i == 0 || found.value < nearest.value) nearest = found;
+      nearest.lower = lower;
+    }
+    return nearest;
+  }
   const TriangleMesh& mesh = *body.mesh();
   const Vec3<double> along = pose.linear.transpose() * plane.normal;
   const Vec3<double> from_plane = (TwoFoldVec3<double>(pose.translation) - plane.point).rounded();

@@ -13,22 +13,12 @@
 namespace minkray {
 namespace {
 
-/// Padding of boxes for the rounding of support points and of a solver's hits, in machine epsilons
-/// of the box's size plus its distance from the world's origin.
-constexpr int bounds_padding = 32;
-
 /// Number of poses that a thread takes at a time: some hundred microseconds of work.
 constexpr std::size_t poses_a_range = 4096;
 
 /// Bodies in Defined::bodies are indexed by 1 if turned, plus 2 if plain. This is the index of the
 /// body for maps that do not fit in float.
 constexpr std::size_t wide_body = 4;
-
-Bounds<double> padded(const Bounds<double>& bounds) {
-  const double size = bounds.lower.cwiseAbs().cwiseMax(bounds.upper.cwiseAbs()).maxCoeff();
-  const double padding = bounds_padding * tolerance::epsilon<double> * size;
-  return {(bounds.lower.array() - padding).matrix(), (bounds.upper.array() + padding).matrix()};
-}
 
 }  // namespace
 
@@ -150,18 +140,31 @@ void Instances::add(const HalfSpaceBody<double>& half_space, const Affine<double
   boxes_.push_back({});
 }
 
+void Instances::add_without_shape(std::uint32_t body, const Bounds<double>& bounds) {
+  places_.push_back({});
+  places_.back().body = body;
+  if (!digits_.empty()) digits_.push_back({});
+  boxes_.push_back(rounded_outwards(padded(bounds)));
+}
+
 void Instances::add(std::shared_ptr<const TriangleMesh> mesh, const Affine<double>& pose) {
   meshes_.emplace_back(static_cast<std::uint32_t>(places_.size()), std::move(mesh), pose);
-  places_.push_back({});
-  places_.back().body = body_of_mesh;
-  if (!digits_.empty()) digits_.push_back({});
-  boxes_.push_back(
-      rounded_outwards(padded(meshes_.back().tight_bounds_under(meshes_.back().pose))));
+  add_without_shape(body_of_mesh, meshes_.back().tight_bounds_under(pose));
+}
+
+void Instances::add(std::shared_ptr<const Compound> compound, const Affine<double>& pose) {
+  compounds_.emplace_back(static_cast<std::uint32_t>(places_.size()), std::move(compound), pose);
+  add_without_shape(body_of_compound, compounds_.back().bounds);
 }
 
 std::size_t Instances::index_of_mesh(std::size_t i) const {
   const auto found = std::ranges::lower_bound(meshes_, i, {}, &PosedMesh::instance);
   return static_cast<std::size_t>(found - meshes_.begin());
+}
+
+std::size_t Instances::index_of_compound(std::size_t i) const {
+  const auto found = std::ranges::lower_bound(compounds_, i, {}, &PosedCompound::instance);
+  return static_cast<std::size_t>(found - compounds_.begin());
 }
 
 void Instances::add_many(std::uint32_t definition, std::size_t count,
@@ -191,7 +194,7 @@ void Instances::place_many(std::size_t first, std::size_t count,
     std::size_t last_which = wide_body;
     for (std::size_t i = first + begin; i < first + end; ++i) {
       const std::uint32_t definition = definition_of(i);
-      if (definition == no_body) {  // half-spaces and meshes have none
+      if (definition == no_body) {  // half-spaces, meshes and compounds have none
         digits_[i] = {};
         continue;
       }
@@ -228,7 +231,12 @@ void Instances::truncate(std::size_t count) {
 
 void Instances::set_pose(std::size_t i, const Affine<double>& pose) {
   are_boxes_stale_ = true;
-  if (!is_mesh(i)) return put(i, definition_of(i), pose);
+  if (has_shape(i)) return put(i, definition_of(i), pose);
+  if (is_compound(i)) {
+    PosedCompound& posed = compounds_[index_of_compound(i)];
+    posed = PosedCompound(posed.instance, std::move(posed.compound), pose);
+    return;
+  }
   PosedMesh& posed = meshes_[index_of_mesh(i)];
   posed = PosedMesh(posed.instance, std::move(posed.mesh), pose);
 }
@@ -247,6 +255,7 @@ Mat3<double> Instances::to_inner(std::size_t i) const {
 std::optional<Affine<double>> Instances::plain_pose(std::size_t i) const {
   const InstancePlace& place = places_[i];
   if (is_mesh(i)) return mesh_of(i).pose;
+  if (is_compound(i)) return compound_of(i).pose;
   if (place.body == no_body) return {};
   if (!bodies_[place.body].is_plain) return {};
   return Affine<double>{to_inner(i).transpose(),
@@ -270,6 +279,7 @@ bool Instances::are_same(std::size_t i, std::size_t j) const {
 double Instances::half_extent(std::size_t i) const {
   if (is_half_space(i)) return 0;
   if (is_mesh(i)) return mesh_of(i).bounds().half_extents().maxCoeff();
+  if (is_compound(i)) return compound_of(i).bounds.half_extents().maxCoeff();
   const InstanceBody& body = body_of(i);
   if (!body.is_turned) return body.definition->inner_half_extents().maxCoeff();
   const Mat3<double> to_world = inverse_of(to_inner(i));
@@ -316,14 +326,20 @@ void Instances::pose_all(const std::function<Affine<double>(std::size_t)>& pose_
     one = PosedMesh(one.instance, std::move(one.mesh), pose_of(one.instance));
     boxes_[one.instance] = rounded_outwards(padded(one.tight_bounds_under(one.pose)));
   }
+  for (PosedCompound& one : compounds_) {
+    const Affine<double> pose = pose_of(one.instance);
+    if (!(one.pose == pose)) one = PosedCompound(one.instance, std::move(one.compound), pose);
+    boxes_[one.instance] = rounded_outwards(padded(one.bounds));
+  }
   if (!movement_of) return;
   parallel_for(places_.size(), poses_a_range, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       movements_[i] = movement_of(i);
       if (is_half_space(i)) continue;
       const auto bounds_at = [&](const Affine<double>& pose) {
-        return is_mesh(i) ? mesh_of(i).tight_bounds_under(pose)
-                          : definition(definition_of(i)).bounds_of(pose);
+        return is_mesh(i)       ? mesh_of(i).tight_bounds_under(pose)
+               : is_compound(i) ? bounds_under(*compound_of(i).compound, pose)
+                                : definition(definition_of(i)).bounds_of(pose);
       };
       const Affine<double> pose = pose_of(i);
       const Bounds<double> at_end = bounds_at(movements_[i].moved(pose, 1));

@@ -21,6 +21,7 @@
 #include "core/world/half_space.h"
 #include "core/world/instance_body.h"
 #include "core/world/movement.h"
+#include "core/world/posed_compound.h"
 #include "core/world/posed_mesh.h"
 
 namespace minkray {
@@ -51,6 +52,8 @@ class Instances {
 
   /// Adds a mesh under a pose. A mesh has a box but no definition.
   void add(std::shared_ptr<const TriangleMesh> mesh, const Affine<double>& pose = {});
+  /// Adds a compound under a pose; as a mesh, without a definition.
+  void add(std::shared_ptr<const Compound> compound, const Affine<double>& pose = {});
 
   /// Adds `count` instances, the i-th at pose_of(i). Several threads call pose_of at once.
   void add_many(std::uint32_t definition, std::size_t count,
@@ -69,7 +72,8 @@ class Instances {
   }
 
   /// Returns the pose of an instance exactly as given; nullopt if it was not kept. Poses are kept
-  /// for meshes, and for shapes that are not a Transform and have a pose that keeps lengths.
+  /// for meshes and compounds, and for shapes that are not a Transform and have a pose that keeps
+  /// lengths.
   std::optional<Affine<double>> plain_pose(std::size_t i) const;
 
   /// Shows the i-th instance to rays of these kinds only. Call after all instances are added.
@@ -109,8 +113,8 @@ class Instances {
     return cast;
   }
 
-  /// True if two instances at rest have exactly the same shape, place and ray kinds. Not for
-  /// half-spaces and meshes.
+  /// True if two instances at rest have exactly the same shape, place and ray kinds. Only for
+  /// instances with shapes.
   bool are_same(std::size_t i, std::size_t j) const;
 
   /// Makes room for `count` more instances.
@@ -130,10 +134,17 @@ class Instances {
   bool is_mesh(std::size_t i) const { return places_[i].body == body_of_mesh; }
   const PosedMesh& mesh_of(std::size_t i) const { return meshes_[index_of_mesh(i)]; }
 
-  /// True if the instance has a definition: it is neither a half-space nor a mesh.
-  bool has_shape(std::size_t i) const { return places_[i].body < body_of_mesh; }
-  /// True if there are half-spaces or meshes.
-  bool have_shapeless() const { return !half_spaces_.empty() || !meshes_.empty(); }
+  /// Returns the compounds in the order of their instances.
+  const std::vector<PosedCompound>& compounds() const { return compounds_; }
+  bool is_compound(std::size_t i) const { return places_[i].body == body_of_compound; }
+  const PosedCompound& compound_of(std::size_t i) const { return compounds_[index_of_compound(i)]; }
+
+  /// True if the instance has a definition: it is no half-space, mesh or compound.
+  bool has_shape(std::size_t i) const { return places_[i].body < body_of_compound; }
+  /// True if there are half-spaces, meshes or compounds.
+  bool have_shapeless() const {
+    return !half_spaces_.empty() || !meshes_.empty() || !compounds_.empty();
+  }
 
   /// Returns an instance with a shape, prepared for casts. This object must outlive the result.
   /// `loss` is the error bound of a ray's position, in the inner frame (see PreparedShape).
@@ -242,10 +253,12 @@ class Instances {
     Rest rest;
   };
 
-  /// Value of InstancePlace::body for meshes.
-  static constexpr std::uint32_t body_of_mesh = no_body - 1;
+  /// Values of InstancePlace::body for meshes and compounds.
+  static constexpr std::uint32_t body_of_mesh = no_body - 1, body_of_compound = no_body - 2;
 
+  void add_without_shape(std::uint32_t body, const Bounds<double>& bounds);
   std::size_t index_of_mesh(std::size_t i) const;
+  std::size_t index_of_compound(std::size_t i) const;
   Mat3<double> to_inner(std::size_t i) const;
   std::uint32_t number_of(std::shared_ptr<const ShapeDefinition> definition);
   std::uint32_t body_with(std::uint32_t definition, std::size_t which);
@@ -273,6 +286,7 @@ class Instances {
   bool are_boxes_stale_ = false;
   std::vector<PosedHalfSpace> half_spaces_;  ///< in the order of their instances
   std::vector<PosedMesh> meshes_;            ///< in the order of their instances
+  std::vector<PosedCompound> compounds_;     ///< in the order of their instances
   std::vector<RayKinds> shown_to_;           ///< per instance; empty if all are shown to all rays
 };
 

@@ -19,10 +19,16 @@ struct ContactBody {
   /// Two bodies form a pair only if each body's mask shares a bit with the other's category.
   std::uint32_t category = 1;
   std::uint32_t mask = ~std::uint32_t{0};
-  std::shared_ptr<const TriangleMesh> mesh =
-      {};  ///< if not null, the body is this mesh and has no shape
+  /// If one of these is not null, the body is that and has no shape.
+  std::shared_ptr<const TriangleMesh> mesh = {};
+  std::shared_ptr<const Compound> compound = {};
 
-  PartsBody parts() const { return mesh ? PartsBody(*mesh) : PartsBody(shape); }
+  bool is_shape() const { return !mesh && !compound; }
+  PartsBody parts() const {
+    if (mesh) return *mesh;
+    if (compound) return *compound;
+    return shape;
+  }
   bool is_pair_with(const ContactBody& other) const {
     return (category & other.mask) != 0 && (other.category & mask) != 0;
   }

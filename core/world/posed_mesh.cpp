@@ -115,8 +115,8 @@ double rest_of(const Vec3<double>& corner, const Vec3<double>& normal, const Ray
 }
 
 /// Result for a ray whose numbers are too large, or whose direction is zero.
-MeshCast without_hit(const Ray<double>& ray) {
-  MeshCast answer;
+PartCast without_hit(const Ray<double>& ray) {
+  PartCast answer;
   if (!ray.direction.isZero(0)) return answer;  // exhausted
   answer.cast.status = Status::miss;
   answer.cast.path = Path::filter;
@@ -132,7 +132,7 @@ bool is_missed_from_behind(const TriangleMesh& mesh, const PartHit& hit) {
 /// Writes the cast that found the hit. The answer must be as constructed; `direction` is the ray's
 /// before the map, `of_origin` the error of the mapped origin.
 void write_cast(const PosedMesh& posed, const Vec3<double>& direction, const Ray<double>& near,
-                const MapLoss& loss, double of_origin, const PartHit& hit, MeshCast& answer) {
+                const MapLoss& loss, double of_origin, const PartHit& hit, PartCast& answer) {
   CastResult<double>& cast = answer.cast;
   // For the shortest directions t is not a finite number: the cast is exhausted.
   const bool is_found = hit.found() && !is_missed_from_behind(*posed.mesh, hit);
@@ -161,9 +161,9 @@ void write_cast(const PosedMesh& posed, const Vec3<double>& direction, const Ray
       posed.is_turned ? Vec3<double>((posed.to_mesh.transpose() * normal).normalized()) : normal;
 }
 
-MeshCast cast_of(const PosedMesh& posed, const Ray<double>& ray, const NearRay& near,
+PartCast cast_of(const PosedMesh& posed, const Ray<double>& ray, const NearRay& near,
                  const PartHit& hit) {
-  MeshCast answer;
+  PartCast answer;
   const double of_origin = hit.found() ? loss_of_origin(posed, ray.origin) : 0;
   write_cast(posed, ray.direction, near.part.ray, near.loss, of_origin, hit, answer);
   return answer;
@@ -213,7 +213,7 @@ Bounds<double> PosedMesh::tight_bounds_under(const Affine<double>& other) const 
   return {whole.lower.cwiseMax(tight.lower), whole.upper.cwiseMin(tight.upper)};
 }
 
-MeshCast cast_ray(const PosedMesh& posed, const Ray<double>& ray, double most, bool leaves,
+PartCast cast_ray(const PosedMesh& posed, const Ray<double>& ray, double most, bool leaves,
                   double loss, PartCounts& counts) {
   const NearRay near = near_ray(posed, ray, loss, most);
   if (!near.is_number) return without_hit(ray);
@@ -266,9 +266,9 @@ void RaysAtMesh::find_any(std::span<std::uint8_t> met, PartCounts& counts) {
   for (std::size_t i = 0; i < count_; ++i) met[numbers_[i]] |= met_[i];
 }
 
-MeshCast RaysAtMesh::closest(std::size_t i, const Ray<double>& ray, OriginLoss& last) const {
+PartCast RaysAtMesh::closest(std::size_t i, const Ray<double>& ray, OriginLoss& last) const {
   if (ray.origin != last.origin) last = {ray.origin, loss_of_origin(*posed_, ray.origin)};
-  MeshCast answer;
+  PartCast answer;
   write_cast(*posed_, ray.direction, rays_[i].ray, losses_[i], last.loss, hits_[i], answer);
   return answer;
 }
@@ -289,7 +289,7 @@ CastResult<double> cast_exit(const PosedMesh& posed, const Ray<double>& ray) {
   return exit;
 }
 
-MeshCast cast_last_exit(const PosedMesh& posed, const Ray<double>& ray, double loss) {
+PartCast cast_last_exit(const PosedMesh& posed, const Ray<double>& ray, double loss) {
   const NearRay near = near_ray(posed, ray, loss);
   if (!near.is_number) return without_hit(ray);
   const TriangleMesh& mesh = *posed.mesh;
@@ -300,7 +300,7 @@ MeshCast cast_last_exit(const PosedMesh& posed, const Ray<double>& ray, double l
     for (const PartHit& hit : crossings(mesh, endless))
       if (hit.t > near.part.ray.t_max) turns += hit.is_back ? 1 : -1;
     if (turns != 0) {
-      MeshCast end;
+      PartCast end;
       end.cast = {Status::inside, Path::filter, ray.t_max, 0, 0, 0};
       return end;
     }
@@ -310,7 +310,7 @@ MeshCast cast_last_exit(const PosedMesh& posed, const Ray<double>& ray, double l
   PartHit last;
   for (const PartHit& hit : hits)
     if (!last.found() || hit.t > last.t) last = hit;
-  MeshCast exit = cast_of(posed, ray, near, last);
+  PartCast exit = cast_of(posed, ray, near, last);
   if (exit.cast.status != Status::hit) return exit;
   exit.cast.normal *= -1;
   // Within the errors, another triangle may be the last one.
@@ -325,12 +325,12 @@ MeshCast cast_last_exit(const PosedMesh& posed, const Ray<double>& ray, double l
 }
 
 bool add_crossings(const PosedMesh& posed, const Ray<double>& ray, double loss,
-                   std::vector<MeshCrossing>& to) {
+                   std::vector<PartCrossing>& to) {
   const NearRay near = near_ray(posed, ray, loss);
   if (!near.is_number) return without_hit(ray).cast.status == Status::miss;
   for (const PartHit& hit : crossings(*posed.mesh, near.part.ray)) {
     if (is_missed_from_behind(*posed.mesh, hit)) continue;
-    MeshCast at = cast_of(posed, ray, near, hit);
+    PartCast at = cast_of(posed, ray, near, hit);
     if (!at.cast.found()) return false;
     if (hit.is_back) at.cast.normal *= -1;
     to.push_back({at, hit.is_back});

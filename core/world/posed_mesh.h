@@ -28,9 +28,9 @@ struct PosedMesh {
   Bounds<double> tight_bounds_under(const Affine<double>& other) const;
 };
 
-/// Result of a cast at a posed mesh, and the hit triangle. The normal is the triangle's normal on
-/// the side of the ray's origin.
-struct MeshCast {
+/// Result of a cast at a posed mesh or compound, and the hit part. The normal of a triangle is that
+/// on the side of the ray's origin.
+struct PartCast {
   CastResult<double> cast;
   std::uint32_t part = no_part;
 };
@@ -42,7 +42,7 @@ inline constexpr double leaving_mesh = 0x1p-36;
 /// Finds the first triangle that the ray hits at t <= `most`, which may be infinite. `leaves`: the
 /// ray starts on the mesh (leaving_mesh). `loss` is the error bound of the ray's position. Returns
 /// `exhausted` instead of a miss if numbers are too large.
-MeshCast cast_ray(const PosedMesh& posed, const Ray<double>& ray, double most, bool leaves,
+PartCast cast_ray(const PosedMesh& posed, const Ray<double>& ray, double most, bool leaves,
                   double loss, PartCounts& counts);
 /// Finds where a ray from outside leaves a closed mesh: at the second intersection, or at the first
 /// one if there is only one. Sets only the status and t.
@@ -50,18 +50,18 @@ CastResult<double> cast_exit(const PosedMesh& posed, const Ray<double>& ray);
 /// Finds where the ray leaves the mesh for the last time: the last hit of any triangle. The status
 /// is `inside` if the ray's end (at ray.t_max) is within a closed mesh. The normal points along the
 /// ray.
-MeshCast cast_last_exit(const PosedMesh& posed, const Ray<double>& ray, double loss);
+PartCast cast_last_exit(const PosedMesh& posed, const Ray<double>& ray, double loss);
 
-/// A triangle that the ray passes through. The normal is on the triangle's front, given by the
-/// order of its vertices.
-struct MeshCrossing {
-  MeshCast at;
+/// A point where a ray enters or leaves a part. The normal of a triangle is on its front, given by
+/// the order of its vertices.
+struct PartCrossing {
+  PartCast at;
   bool leaves = false;  ///< the ray runs in the direction of the normal
 };
 /// Appends all triangles that the ray passes through, in the order of crossings()
 /// (core/mesh/crossings.h). Returns false if numbers are too large.
 bool add_crossings(const PosedMesh& posed, const Ray<double>& ray, double loss,
-                   std::vector<MeshCrossing>& to);
+                   std::vector<PartCrossing>& to);
 
 /// True if the ray hits the mesh at t <= ray.t_max.
 bool is_met(const PosedMesh& posed, const Ray<double>& ray, bool leaves, PartCounts& counts);

@@ -36,7 +36,7 @@ class RaysAtMesh {
     OriginLoss last;
     for (std::size_t i = 0; i < count_; ++i) {
       if (!hits_[i].found()) continue;
-      if (const MeshCast cast = closest(i, ray_of(numbers_[i]), last);
+      if (const PartCast cast = closest(i, ray_of(numbers_[i]), last);
           cast.cast.status != Status::miss)
         take(numbers_[i], cast);
     }
@@ -50,7 +50,7 @@ class RaysAtMesh {
     Vec3<double> origin = Vec3<double>::Constant(std::numeric_limits<double>::quiet_NaN());
     double loss = 0;
   };
-  MeshCast closest(std::size_t i, const Ray<double>& ray, OriginLoss& last) const;
+  PartCast closest(std::size_t i, const Ray<double>& ray, OriginLoss& last) const;
 
   const PosedMesh* posed_ = nullptr;
   std::size_t count_ = 0;

@@ -33,10 +33,13 @@ World::World(Instances instances, const CastOptions& options, BvhBuild build)
   this->build(instances_.take_boxes());
 }
 
-void World::take_boxes_of_meshes(const FirstTouchVector<Bounds<float>>& boxes) {
-  boxes_of_meshes_.clear();
-  for (const PosedMesh& mesh : instances_.meshes())
-    boxes_of_meshes_.push_back(boxes[mesh.instance]);
+void World::take_boxes_of_parts(const FirstTouchVector<Bounds<float>>& boxes) {
+  const auto take = [&](const auto& bodies, std::vector<Bounds<float>>& taken) {
+    taken.clear();
+    for (const auto& body : bodies) taken.push_back(boxes[body.instance]);
+  };
+  take(instances_.meshes(), boxes_of_meshes_);
+  take(instances_.compounds(), boxes_of_compounds_);
 }
 
 /// The BVH contains all shapes that a ray can hit first.
@@ -44,8 +47,9 @@ void World::build(const FirstTouchVector<Bounds<float>>& boxes) {
   kind_of_all_ = instances_.kind_of_all();
   repeated_ = repeated_instances(instances_);
   const RayKinds* const shown_to = instances_.shown_to();
-  take_boxes_of_meshes(boxes);
+  take_boxes_of_parts(boxes);
   mesh_boxes_ = build_bvh(boxes_of_meshes_, build_);
+  compound_boxes_ = build_bvh(boxes_of_compounds_, build_);
   if (!instances_.have_shapeless() && repeated_.empty() && !shown_to) {
     bvh_ = build_bvh(boxes, build_);
     return;
@@ -200,8 +204,9 @@ void World::pose_all(const std::function<Affine<double>(std::size_t)>& pose_of,
     return;
   }
   refit(bvh_, boxes);
-  take_boxes_of_meshes(boxes);
+  take_boxes_of_parts(boxes);
   refit(mesh_boxes_, boxes_of_meshes_);
+  refit(compound_boxes_, boxes_of_compounds_);
   if (visits() > most_visits_after_refit * visits_as_built_) {
     build(boxes);
     visits_as_built_ = visits();

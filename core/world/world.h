@@ -102,15 +102,19 @@ class World {
   std::size_t rays_at_once() const;
 
   /// Memory of instances and BVH, without the hulls' points, which are shared.
-  std::size_t bytes() const { return bvh_.bytes() + mesh_boxes_.bytes() + instances_.bytes(); }
+  std::size_t bytes() const {
+    return bvh_.bytes() + mesh_boxes_.bytes() + compound_boxes_.bytes() + instances_.bytes();
+  }
 
  private:
   void build(const FirstTouchVector<Bounds<float>>& boxes);
-  void take_boxes_of_meshes(const FirstTouchVector<Bounds<float>>& boxes);
+  void take_boxes_of_parts(const FirstTouchVector<Bounds<float>>& boxes);
   /// Casts at an instance that does not move, with the default options.
   CastResult<double> cast_at_rest(std::uint32_t instance, const Ray<double>& ray) const;
   void add_shape_crossings(const WorldRay& ray, std::uint32_t instance,
                            std::vector<WorldCrossing>& to, QueryCounts& counts) const;
+  void add_compound_crossings(const WorldRay& ray, const PosedCompound& compound,
+                              std::vector<WorldCrossing>& to, QueryCounts& counts) const;
   void add_shapeless_crossings(const WorldRay& ray, std::vector<WorldCrossing>& to,
                                QueryCounts& counts) const;
   /// Tries to decide the ray in float lanes (SIMD); returns false if the lanes are inconclusive.
@@ -119,11 +123,18 @@ class World {
   SingleWorld single_world() const;
   void closer_hit(const WorldRay& ray, SlabRay& slabs, WorldHit& closest,
                   QueryCounts& counts) const;
-  /// Tests half-spaces and meshes, which are not in the BVH of the shapes. Returns true if one is
-  /// hit before `closest`.
+  /// Tests half-spaces, meshes and compounds, which are not in the BVH of the shapes. Returns true
+  /// if one is hit before `closest`.
   bool closer_shapeless(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
   bool closer_half_space(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
+  bool closer_compound(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
   bool closer_mesh(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
+  bool has_others_than_meshes() const {
+    return !instances_.half_spaces().empty() || !instances_.compounds().empty();
+  }
+  /// For half-spaces and compounds.
+  bool closer_but_meshes(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const;
+  bool blocked_but_by_meshes(const WorldRay& ray, QueryCounts& counts) const;
   bool blocked_by_shapeless(const WorldRay& ray, QueryCounts& counts) const;
   /// Finds the closest shapeless instance (half-space or mesh) for many rays, mesh by mesh. Sets
   /// is_exhausted[i] to 1 if a cast of rays[i] does not converge.
@@ -155,6 +166,8 @@ class World {
   Bvh bvh_;         ///< contains the instances with shapes
   Bvh mesh_boxes_;  ///< contains the meshes, by their index in Instances::meshes()
   std::vector<Bounds<float>> boxes_of_meshes_;
+  Bvh compound_boxes_;  ///< contains the compounds, by their index in Instances::compounds()
+  std::vector<Bounds<float>> boxes_of_compounds_;
   BvhBuild build_ = BvhBuild::quality;
   /// Instances left out of the BVH because they repeat others (repeated.h), sorted by the instance
   /// that each repeats.

@@ -28,7 +28,7 @@ CastResult<double> at_origin(const Vec3<double>& normal) {
   return {Status::hit, Path::filter, 0, 0, 0, 0, normal};
 }
 
-/// Makes t of the crossings of one instance ascend, in spite of rounding.
+/// Makes t of the crossings of one instance, or part, ascend, in spite of rounding.
 void put_in_order(std::vector<WorldCrossing>& crossings, std::size_t first) {
   for (std::size_t i = first + 1; i < crossings.size(); ++i) {
     WorldCrossing& one = crossings[i];
@@ -42,24 +42,33 @@ void put_in_order(std::vector<WorldCrossing>& crossings, std::size_t first) {
 void World::add_shape_crossings(const WorldRay& ray, std::uint32_t instance,
                                 std::vector<WorldCrossing>& to, QueryCounts& counts) const {
   if (ray.passes(instances_, instance)) return;
-  const PreparedShape shape = instances_.at_seen_by(instance, ray.ray);
-  const Ray<double> seen = instances_.seen_by(instance, ray.ray, ray.time);
-  const CastResult<double> entry = cast_ray(shape, seen, options_);
-  counts.add_cast(entry);
-  if (!entry.found()) return;
+  const ShapeCrossings found =
+      crossings_of(instances_.at_seen_by(instance, ray.ray), no_part,
+                   instances_.seen_by(instance, ray.ray, ray.time), options_, counts);
   const std::size_t first = to.size();
-  const auto add = [&](const CastResult<double>& cast, bool leaves) {
-    to.push_back(crossing_of(ray, instance, instances_.turned(instance, cast, ray.time), leaves));
-  };
-  if (entry.status == Status::hit) add(entry, false);
-  CastResult<double> exit = cast_exit_within(shape, seen, options_);
-  counts.add_cast(exit);
-  // A ray that only touches the shape may enter without an exit, due to rounding: it then leaves
-  // where it enters.
-  if (exit.status == Status::miss)
-    exit = entry.status == Status::hit ? entry : at_origin(unit<double>(seen.direction));
-  if (exit.status == Status::hit) add(exit, true);
+  for (int i = 0; i < found.count; ++i) {
+    const auto& [at, leaves] = found.at[i];
+    to.push_back(
+        crossing_of(ray, instance, instances_.turned(instance, at.cast, ray.time), leaves));
+  }
   put_in_order(to, first);
+}
+
+void World::add_compound_crossings(const WorldRay& ray, const PosedCompound& compound,
+                                   std::vector<WorldCrossing>& to, QueryCounts& counts) const {
+  const std::uint32_t instance = compound.instance;
+  if (ray.passes(instances_, instance)) return;
+  std::vector<PartCrossing> found;
+  add_crossings(compound, instances_.seen_by(instance, ray.ray, ray.time),
+                instances_.loss_of_seen_by(instance, ray.ray), options_, counts, found);
+  std::size_t first = to.size();  // of the part
+  for (const PartCrossing& one : found) {
+    to.push_back(
+        crossing_of(ray, instance, instances_.turned(instance, one.at.cast, ray.time), one.leaves));
+    to.back().part = one.at.part;
+    if (to[first].part != one.at.part) first = to.size() - 1;
+    put_in_order(to, first);
+  }
 }
 
 void World::add_shapeless_crossings(const WorldRay& ray, std::vector<WorldCrossing>& to,
@@ -84,7 +93,7 @@ void World::add_shapeless_crossings(const WorldRay& ray, std::vector<WorldCrossi
       to.push_back(
           crossing_of(ray, instance, instances_.turned(instance, result, ray.time), leaves));
   }
-  std::vector<MeshCrossing> of_mesh;
+  std::vector<PartCrossing> of_mesh;
   auto on_mesh = [&](std::uint32_t index) {
     const PosedMesh& mesh = instances_.meshes()[index];
     if (ray.passes(instances_, mesh.instance)) return false;
@@ -93,7 +102,7 @@ void World::add_shapeless_crossings(const WorldRay& ray, std::vector<WorldCrossi
     if (!add_crossings(mesh, seen, instances_.loss_of_seen_by(mesh.instance, ray.ray), of_mesh))
       ++counts.exhausted;
     const std::size_t first = to.size();
-    for (const MeshCrossing& one : of_mesh) {
+    for (const PartCrossing& one : of_mesh) {
       to.push_back(crossing_of(
           ray, mesh.instance, instances_.turned(mesh.instance, one.at.cast, ray.time), one.leaves));
       to.back().part = one.at.part;
@@ -106,6 +115,11 @@ void World::add_shapeless_crossings(const WorldRay& ray, std::vector<WorldCrossi
     on_mesh(0);
   else
     counts.nodes += traverse(mesh_boxes_, SlabRay(ray.ray), on_mesh);
+  if (instances_.compounds().empty()) return;
+  counts.nodes += traverse(compound_boxes_, SlabRay(ray.ray), [&](std::uint32_t index) {
+    add_compound_crossings(ray, instances_.compounds()[index], to, counts);
+    return false;
+  });
 }
 
 void World::all_hits(const WorldRay& ray, std::vector<WorldCrossing>& to,

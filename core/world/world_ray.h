@@ -66,7 +66,7 @@ struct QueryCounts {
 struct WorldHit {
   std::uint32_t instance = no_instance;
   CastResult<double> cast;       ///< hit or inside; miss if the ray meets no instance
-  std::uint32_t part = no_part;  ///< number of the triangle, for a mesh
+  std::uint32_t part = no_part;  ///< number of the part, for a mesh or compound
 
   static WorldHit miss() {
     WorldHit none;
@@ -83,7 +83,7 @@ struct WorldHit {
 /// A point where a ray enters or leaves an instance.
 struct WorldCrossing {
   std::uint32_t instance = no_instance;
-  std::uint32_t part = no_part;      ///< number of the triangle, for a mesh
+  std::uint32_t part = no_part;      ///< number of the part, for a mesh or compound
   double t = 0, t_lo = 0, t_hi = 0;  ///< t and its bounds
   Vec3<double> point, normal;        ///< outward normal; for a mesh, by the order of vertices
   bool leaves = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Casts at half-spaces and meshes. A world has few of them; they come before shapes, as their hits
-// limit the rays.
+// Casts at half-spaces, meshes and compounds. A world has few of them; they come before shapes, as
+// their hits limit the rays.
 #include <algorithm>
 #include <bit>
 #include <numeric>
@@ -42,6 +42,29 @@ bool World::closer_half_space(const WorldRay& ray, WorldHit& closest, QueryCount
   return found;
 }
 
+bool World::closer_compound(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const {
+  if (instances_.compounds().empty()) return false;
+  bool found = false;
+  SlabRay slabs(ray.ray);
+  if (closest.found()) slabs.numbers.t_max = slabs.limit(closest.cast.t());
+  counts.nodes += traverse(compound_boxes_, slabs, [&](std::uint32_t index) {
+    const PosedCompound& compound = instances_.compounds()[index];
+    const std::uint32_t instance = compound.instance;
+    if (!instances_.is_shown_to(instance, ray.kinds)) return false;
+    const double most =
+        closest.found() ? closest.cast.t() : std::numeric_limits<double>::infinity();
+    const auto [cast, part] = cast_ray(
+        compound, instances_.seen_by(instance, ray.ray, ray.time), most, instance == ray.skip,
+        instances_.loss_of_seen_by(instance, ray.ray), options_, counts);
+    if (!cast.found() || !closest.yields_to(instance, cast.t())) return false;
+    closest = {instance, instances_.turned(instance, cast, ray.time), part};
+    slabs.numbers.t_max = slabs.limit(cast.t());
+    found = true;
+    return false;
+  });
+  return found;
+}
+
 bool World::closer_mesh(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const {
   bool found = false;
   auto on_mesh = [&](std::uint32_t index) {
@@ -75,14 +98,34 @@ bool World::closer_mesh(const WorldRay& ray, WorldHit& closest, QueryCounts& cou
 
 bool World::closer_shapeless(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const {
   if (!instances_.have_shapeless()) return false;
-  const bool is_closer = closer_half_space(ray, closest, counts);
+  const bool is_closer = closer_but_meshes(ray, closest, counts);
   return closer_mesh(ray, closest, counts) || is_closer;
+}
+
+bool World::closer_but_meshes(const WorldRay& ray, WorldHit& closest, QueryCounts& counts) const {
+  const bool is_closer = closer_half_space(ray, closest, counts);
+  return closer_compound(ray, closest, counts) || is_closer;
+}
+
+bool World::blocked_but_by_meshes(const WorldRay& ray, QueryCounts& counts) const {
+  WorldHit any;
+  bool is_blocked = closer_half_space(ray, any, counts);
+  if (is_blocked || instances_.compounds().empty()) return is_blocked;
+  counts.nodes += traverse(compound_boxes_, SlabRay(ray.ray), [&](std::uint32_t index) {
+    const PosedCompound& compound = instances_.compounds()[index];
+    const std::uint32_t instance = compound.instance;
+    is_blocked =
+        instances_.is_shown_to(instance, ray.kinds) &&
+        is_met(compound, instances_.seen_by(instance, ray.ray, ray.time), instance == ray.skip,
+               instances_.loss_of_seen_by(instance, ray.ray), options_, counts);
+    return is_blocked;
+  });
+  return is_blocked;
 }
 
 bool World::blocked_by_shapeless(const WorldRay& ray, QueryCounts& counts) const {
   if (!instances_.have_shapeless()) return false;
-  WorldHit any;
-  if (closer_half_space(ray, any, counts)) return true;
+  if (blocked_but_by_meshes(ray, counts)) return true;
   bool is_blocked = false;
   auto on_mesh = [&](std::uint32_t index) {
     const PosedMesh& mesh = instances_.meshes()[index];
@@ -105,11 +148,11 @@ void World::closest_shapeless(const RaySpan& rays, std::span<WorldHit> closest,
   const std::size_t meshes = instances_.meshes().size();
   const bool are_together = has_screen() && rays.size() >= least_together && meshes > 0;
   std::ranges::fill(is_exhausted, std::uint8_t{0});
-  const bool has_half_spaces = !instances_.half_spaces().empty();
-  for (std::size_t i = 0; (has_half_spaces || !are_together) && i < rays.size(); ++i) {
+  const bool has_others = has_others_than_meshes();
+  for (std::size_t i = 0; (has_others || !are_together) && i < rays.size(); ++i) {
     const std::uint64_t before = counts.exhausted;
     if (are_together)
-      closer_half_space(rays[i], closest[i], counts);
+      closer_but_meshes(rays[i], closest[i], counts);
     else
       closer_shapeless(rays[i], closest[i], counts);
     is_exhausted[i] = counts.exhausted > before ? 1 : 0;
@@ -140,7 +183,7 @@ void World::closest_shapeless(const RaySpan& rays, std::span<WorldHit> closest,
     const auto seen = [&](std::uint32_t i) {
       return instances_.seen_by(mesh.instance, rays.ray(i), rays.time(i));
     };
-    at_mesh.each_closest(seen, [&](std::uint32_t i, const MeshCast& answer) {
+    at_mesh.each_closest(seen, [&](std::uint32_t i, const PartCast& answer) {
       const auto& [cast, part] = answer;
       if (cast.status == Status::exhausted) return give_up(i);
       WorldHit& hit = closest[i];
@@ -162,7 +205,7 @@ void World::closest_shapeless(const RaySpan& rays, std::span<WorldHit> closest,
   const auto make_slabs = [&](std::uint32_t first, std::uint32_t end) {
     make_slabs_avx2(rays.part(first, end - first).data(), rays.stride(), end - first,
                     slabs.data() + first);
-    for (std::uint32_t i = first; has_half_spaces && i < end; ++i)
+    for (std::uint32_t i = first; has_others && i < end; ++i)
       if (closest[i].found()) slabs[i].numbers.t_max = slabs[i].limit(closest[i].cast.t());
     return std::span(slabs).subspan(first, end - first);
   };
@@ -214,10 +257,8 @@ void World::blocked_by_shapeless(const RaySpan& rays, std::span<std::uint8_t> me
   const bool are_together = has_screen() && rays.size() >= least_together && meshes > 0 &&
                             are_worth_rounds(rays.size(), meshes);
   std::ranges::fill(met, std::uint8_t{0});
-  const bool has_half_spaces = !instances_.half_spaces().empty();
-  for (std::size_t i = 0; (has_half_spaces || !are_together) && i < rays.size(); ++i) {
-    WorldHit any;
-    const bool is_blocked = are_together ? closer_half_space(rays[i], any, counts)
+  for (std::size_t i = 0; (has_others_than_meshes() || !are_together) && i < rays.size(); ++i) {
+    const bool is_blocked = are_together ? blocked_but_by_meshes(rays[i], counts)
                                          : blocked_by_shapeless(rays[i], counts);
     met[i] = is_blocked ? 1 : 0;
   }

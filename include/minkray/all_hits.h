@@ -18,7 +18,7 @@ struct Crossing {
   double t = 0, t_lo = 0, t_hi = 0;
   Vec3 point, normal;  ///< the normal is outward
   std::uint32_t object = no_object;
-  std::int32_t part = -1;   ///< of a mesh: the triangle
+  std::int32_t part = -1;   ///< of a mesh or compound: the triangle or part
   std::int32_t leaves = 0;  ///< 0: the ray enters the object; 1: it leaves
   std::int32_t reserved = 0;
 };

@@ -165,8 +165,8 @@ inline Pose operator*(const Pose& outer, const Pose& inner) {
 
 // ---- shapes ----
 
-/// An immutable convex shape or mesh; copies are cheap. Default-constructed and moved-from shapes
-/// are empty.
+/// An immutable convex shape, mesh or compound; copies are cheap. Default-constructed and
+/// moved-from shapes are empty.
 class Shape {
  public:
   Shape() = default;
@@ -435,6 +435,52 @@ inline MeshInfo mesh_info(const Shape& mesh) {
   return info;
 }
 
+/// A convex shape at a pose in a compound.
+struct Part {
+  Shape shape;
+  Pose pose = identity();
+};
+/// A solid of convex parts, usable like a mesh; hits name the part.
+inline Shape compound(View<const Part> parts) {
+  struct Arrays {
+    explicit Arrays(std::size_t n) : shapes(new minkray_shape[n + 1]), poses(new Pose[n + 1]) {}
+    ~Arrays() {
+      delete[] shapes;
+      delete[] poses;
+    }
+    Arrays(const Arrays&) = delete;
+    Arrays& operator=(const Arrays&) = delete;
+    minkray_shape* shapes;
+    Pose* poses;
+  } arrays(parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    arrays.shapes[i] = parts[i].shape.handle();
+    arrays.poses[i] = parts[i].pose;
+  }
+  minkray_shape made;
+  detail::check(
+      minkray_shape_compound(arrays.shapes, detail::plain(arrays.poses), parts.size(), &made));
+  return Shape(made);
+}
+inline Shape compound(std::initializer_list<Part> parts) {
+  return compound(View<const Part>(parts.begin(), parts.size()));
+}
+/// Number of a compound's parts.
+inline std::size_t compound_size(const Shape& compound) {
+  std::size_t count = 0;
+  detail::check(minkray_shape_compound_size(compound.handle(), &count));
+  return count;
+}
+/// A part of a compound.
+inline Part compound_part(const Shape& compound, std::size_t i) {
+  minkray_shape shape;
+  Part part;
+  detail::check(minkray_shape_compound_part(compound.handle(), i, &shape,
+                                            reinterpret_cast<minkray_pose*>(&part.pose)));
+  part.shape = Shape(shape);
+  return part;
+}
+
 namespace detail {
 /// Runs a support function; the query that called it reports its exceptions.
 template <class Work>
@@ -575,7 +621,7 @@ struct Hit {
   std::uint32_t object = no_object;
   Status status = exhausted;
   std::int32_t supports = 0;
-  std::int32_t part = -1;  ///< of a mesh: the triangle
+  std::int32_t part = -1;  ///< of a mesh or compound: the triangle or part
 
   bool found() const { return status == hit || status == inside; }
 };

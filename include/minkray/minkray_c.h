@@ -57,7 +57,7 @@ MINKRAY_API const char* minkray_last_error(void);
 
 /* ---- shapes ---------------------------------------------------------------------------------- */
 
-/* An immutable convex shape or mesh. {0} means no shape. */
+/* An immutable convex shape, mesh or compound. {0} means no shape. */
 typedef struct minkray_shape {
   uint64_t id;
 } minkray_shape;
@@ -132,6 +132,16 @@ MINKRAY_API int minkray_shape_mesh_info(minkray_shape shape, minkray_mesh_info* 
 /* Copies a mesh's vertices and triangles: as many as minkray_mesh_info has. */
 MINKRAY_API int minkray_shape_mesh_arrays(minkray_shape shape, double (*vertices)[3],
                                           uint32_t (*triangles)[3]);
+
+/* A solid of convex parts: shapes at poses (NULL: the identity). Scenes, rays and pairs accept a
+ * compound like a mesh, and hits name the part. */
+MINKRAY_API int minkray_shape_compound(const minkray_shape* shapes, const minkray_pose* poses,
+                                       size_t count, minkray_shape* shape);
+/* Number of a compound's parts. */
+MINKRAY_API int minkray_shape_compound_size(minkray_shape shape, size_t* count);
+/* Shape and pose of a part. The shape must be released. Output pointers may be NULL. */
+MINKRAY_API int minkray_shape_compound_part(minkray_shape shape, size_t part, minkray_shape* made,
+                                            minkray_pose* pose);
 
 /* Sets the error message of a failing support function, for the query that called it. Ignored
  * outside of support functions. */
@@ -288,7 +298,7 @@ typedef struct minkray_hit {
   uint32_t object;  /* or MINKRAY_NO_OBJECT */
   int32_t status;   /* a minkray_status */
   int32_t supports; /* calls of the object's support mapping */
-  int32_t part;     /* of a mesh: the triangle; else -1 */
+  int32_t part;     /* of a mesh or compound: the triangle or part; else -1 */
 } minkray_hit;
 
 typedef struct minkray_options {
@@ -371,7 +381,7 @@ typedef struct minkray_crossing {
   double normal[3]; /* outward unit vector; of a mesh: the side on which the triangle's vertices are
                      * counter-clockwise */
   uint32_t object;
-  int32_t part;   /* of a mesh: the triangle; else -1 */
+  int32_t part;   /* of a mesh or compound: the triangle or part; else -1 */
   int32_t leaves; /* 0: the ray enters the object; 1: it leaves */
   int32_t reserved;
 } minkray_crossing;

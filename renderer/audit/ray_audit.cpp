@@ -46,7 +46,7 @@ std::string query_line(const Object& object, const Shape& in_world, const Ray<do
   return json.dump();
 }
 
-Bounds<double> padded(Bounds<double> bounds) {
+Bounds<double> with_margin(Bounds<double> bounds) {
   const double padding = box_padding * std::max(bounds.lower.cwiseAbs().maxCoeff(),
                                                 bounds.upper.cwiseAbs().maxCoeff());
   bounds.lower.array() -= padding;
@@ -68,11 +68,11 @@ RayAudit::RayAudit(const Scene& scene, const World& world) : scene_(scene), worl
     }
     if (object.mesh) {
       const PosedMesh posed(0, object.mesh, object.pose);
-      targets_.push_back({object.shape, padded(posed.bounds()), {}, posed});
+      targets_.push_back({object.shape, with_margin(posed.bounds()), {}, posed});
       continue;
     }
     const Shape in_world = Transform{object.shape, object.pose};
-    targets_.push_back({in_world, padded(bounds_of(in_world))});
+    targets_.push_back({in_world, with_margin(bounds_of(in_world))});
   }
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/mesh/mapped.h"
+#include "core/parts/compound.h"
 #include "core/support/composed_map.h"
 #include "renderer/base/errors.h"
 #include "renderer/import/model/mesh_hull.h"
@@ -149,6 +150,13 @@ std::vector<ClearanceBody> bodies_of(const Scene& scene) {
   std::vector<ClearanceBody> bodies;
   for (std::size_t i = 0; i < count; ++i) {
     const Object object = instance_object(scene, i);
+    if (object.compound) {
+      for (std::size_t part = 0; part < object.compound->size(); ++part) {
+        const auto& [shape, pose] = object.compound->part(part);
+        bodies.push_back(body_of(object.name, "", -1, shape, object.pose * pose));
+      }
+      continue;
+    }
     if (object.mesh) {
       bodies.push_back(body_of(object.name, "", -1, object.mesh, object.pose));
       continue;
@@ -159,6 +167,16 @@ std::vector<ClearanceBody> bodies_of(const Scene& scene) {
           PlacedPlane::of(object.half_space->normal, object.half_space->offset, object.pose);
   }
   return bodies;
+}
+
+std::vector<std::uint32_t> objects_of_bodies(const Scene& scene) {
+  std::vector<std::uint32_t> objects;
+  for (std::uint32_t i = 0; i < instance_count(scene); ++i) {
+    const Compound* const compound =
+        i < scene.objects.size() ? scene.objects[i].compound.get() : nullptr;
+    objects.insert(objects.end(), compound ? compound->size() : 1, i);
+  }
+  return objects;
 }
 
 LinkPlace place_of(int link, const Model& model, const std::vector<int>& groups) {

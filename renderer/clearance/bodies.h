@@ -56,6 +56,8 @@ inline constexpr std::size_t most_pairs = 10'000'000;
 /// All of a scene's objects and particles, at the scene's time, in the order in which worlds number
 /// them. Throws BadInput if there are more than most_obstacles.
 std::vector<ClearanceBody> bodies_of(const Scene& scene);
+/// Number of each body's object: all parts of a compound have the same, all others have their own.
+std::vector<std::uint32_t> objects_of_bodies(const Scene& scene);
 
 /// Data that determines if a robot's shape moves against another.
 struct LinkPlace {

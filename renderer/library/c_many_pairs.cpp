@@ -45,9 +45,8 @@ void ask_all(const BodiesOfPairs& a, const BodiesOfPairs& b, std::size_t count,
   throw_if_lied(b.customs());
 }
 
-/// True if neither is a mesh.
 bool are_shapes(const PosedBody& a, const PosedBody& b) {
-  return !a.is_mesh() && !b.is_mesh();
+  return a.is_shape() && b.is_shape();
 }
 
 SignedDistance distance_of(const PosedBody& a, const PosedBody& b, PairMemory* memory,
@@ -55,7 +54,7 @@ SignedDistance distance_of(const PosedBody& a, const PosedBody& b, PairMemory* m
   if (are_shapes(a, b) && memory)
     return signed_distance(a.shape(), a.pose(), b.shape(), b.pose(), *memory, options);
   if (!memory) return signed_distance(a.parts(), a.pose(), b.parts(), b.pose(), options);
-  // Keeps the nearest parts of meshes in the memory, as features.
+  // Keeps the nearest parts in the memory, as features.
   PartPair parts;
   if (memory->count == 1)
     parts = {static_cast<std::uint32_t>(memory->feature_a[0]),

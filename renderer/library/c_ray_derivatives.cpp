@@ -46,13 +46,20 @@ struct Met {
 class Bend {
  public:
   Bend(const World& world, const Ray<double>& ray, const Met& met, double size)
-      : shape_(world.instances().at(met.object)),
+      : shape_(prepared(world.instances(), met)),
         ray_(ray),
         // A way that is unlikely to be along an edge.
         aside_(unit<double>(ray.direction.cross(Vec3<double>(0.3713, -0.5571, 0.7428)) +
                             0.6180 * ray.direction.norm() * ray.direction.unitOrthogonal())),
         t_(met.t),
         size_(size) {}
+
+  static PreparedShape prepared(const Instances& instances, const Met& met) {
+    if (!instances.is_compound(met.object)) return instances.at(met.object);
+    const PosedCompound& posed = instances.compound_of(met.object);
+    const auto part = static_cast<std::uint32_t>(met.part);
+    return {posed.compound->definition(part), posed.parts[part]};
+  }
 
   double over(double step) const {
     double sum = -2 * t_;
@@ -193,12 +200,35 @@ class Derivatives {
       const double lean = std::min((own - met.normal).norm(), (own + met.normal).norm());
       return lean + of_corners + lean_of(body->pose.linear);
     }
-    const ShapeCore& core = body->shape.core();
-    const PlacedCore frame = placed(body->shape, body->pose);
+    const ContactShape* const shape = shape_of(*body, met);
+    if (!shape) return no_bound;
+    const ShapeCore& core = shape->core();
+    const PlacedCore frame = placed(*shape, body->pose);
     const double lean = lean_of(frame.turn);
-    const double near = off + (rounding + lean) * body->shape.ball_radius() + core.rounding;
+    const double near = off + (rounding + lean) * shape->ball_radius() + core.rounding;
     return lean + normal_error_at(core, frame.turn.transpose() * (met.point - frame.middle),
                                   frame.turn.transpose() * met.normal, near);
+  }
+
+  /// The shape that is hit: of a compound, the part. Null for a part that is none.
+  static const ContactShape* shape_of(const ContactBody& body, const Met& met) {
+    if (!body.compound) return &body.shape;
+    const auto part = static_cast<std::uint32_t>(met.part);
+    return part < body.compound->size() ? &body.compound->contact(part) : nullptr;
+  }
+
+  static bool is_another_part_at(const ContactBody& body, const Met& met, double near) {
+    if (!body.compound) return false;
+    static const ContactShape point{Shape(Point())};
+    Affine<double> at;
+    at.translation = met.point;
+    for (std::size_t i = 0; i < body.compound->size(); ++i) {
+      if (i == static_cast<std::uint32_t>(met.part)) continue;
+      const SignedDistance distance =
+          signed_distance(point, at, body.compound->contact(i), body.pose);
+      if (distance.lower <= near && distance.upper >= -near) return true;
+    }
+    return false;
   }
 
   bool is_sharp(const Ray<double>& ray, const Met& met, double off) const {
@@ -210,14 +240,16 @@ class Derivatives {
       if (bends_or_ends_at(*body->mesh, point, near_point + rounding * body->mesh->reach()))
         return true;
     } else if (body) {
-      const ShapeCore& core = body->shape.core();
-      const double near = near_point + rounding * body->shape.ball_radius() + core.rounding;
+      const ContactShape* const shape = shape_of(*body, met);
+      if (!shape || is_another_part_at(*body, met, 2 * near_point)) return true;
+      const ShapeCore& core = shape->core();
+      const double near = near_point + rounding * shape->ball_radius() + core.rounding;
       // A shape grown by a radius has no edge.
       if (!(core.radius > 0)) {
         if (core.kind == CoreKind::other) {
           if (bends_at(world_, ray, met, core.ball)) return true;
         } else {
-          const PlacedCore frame = placed(body->shape, body->pose);
+          const PlacedCore frame = placed(*shape, body->pose);
           if (is_sharp_at(core, frame.turn.transpose() * (met.point - frame.middle),
                           frame.turn.transpose() * met.normal, near))
             return true;

@@ -99,8 +99,15 @@ void cast_at_one(std::uint32_t object, const RaySource& rays, minkray_hit* hits,
   });
 }
 
-WorldHit hit_of(const MeshCast& met) {
+WorldHit hit_of(const PartCast& met) {
   return {no_instance, met.cast, met.part};
+}
+
+/// An exit is not before the ray's origin.
+WorldHit bounded_below(WorldHit exit) {
+  if (exit.cast.status == Status::hit)
+    exit.cast.offset_lo = std::max(exit.cast.offset_lo, -exit.cast.t_base);
+  return exit;
 }
 
 }  // namespace
@@ -200,12 +207,18 @@ int minkray_scene_exit(minkray_scene scene, uint32_t object, const minkray_ray* 
                   [&](const Ray<double>& ray) { return hit_of(cast_last_exit(mesh, ray, 0)); });
       return;
     }
+    if (instances.is_compound(object)) {
+      const PosedCompound& compound = instances.compound_of(object);
+      cast_at_one(object, source, hits, options, [&](const Ray<double>& ray) {
+        QueryCounts counts;
+        return bounded_below(hit_of(cast_last_exit(compound, ray, {}, counts)));
+      });
+      throw_if_lied(held->customs());
+      return;
+    }
     const PreparedShape& shape = instances.at(object);
     cast_at_one(object, source, hits, options, [&](const Ray<double>& ray) {
-      WorldHit exit{no_instance, cast_exit_within(shape, ray)};
-      if (exit.cast.status == Status::hit)
-        exit.cast.offset_lo = std::max(exit.cast.offset_lo, -exit.cast.t_base);
-      return exit;
+      return bounded_below({no_instance, cast_exit_within(shape, ray)});
     });
     throw_if_lied(held->customs());
   });
@@ -223,6 +236,15 @@ int minkray_shape_cast(minkray_shape shape, const minkray_pose* pose, const mink
         PartCounts parts;
         return hit_of(cast_ray(posed, ray, ray.t_max, false, 0, parts));
       });
+      return;
+    }
+    if (held.compound()) {
+      const PosedCompound posed(0, held.compound(), pose_of(pose, "pose"));
+      cast_at_one(0, RaySource(rays, count), hits, options, [&](const Ray<double>& ray) {
+        QueryCounts counts;
+        return hit_of(cast_ray(posed, ray, ray.t_max, false, 0, {}, counts));
+      });
+      throw_if_lied(held.customs());
       return;
     }
     if (count == 1 && !options && held.customs().empty()) {

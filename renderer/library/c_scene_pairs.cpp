@@ -309,8 +309,8 @@ int minkray_scene_distance_to(minkray_scene scene, const minkray_bodies* shapes,
     for_all(*held, count, how, [&](size_t i) {
       PosedBody body;
       all.read(i, body);
-      const ContactBody to{body.shape_or_point(), body.pose(), all_categories, query.mask,
-                           body.mesh()};
+      const ContactBody to{body.shape_or_point(), body.pose(),    all_categories, query.mask,
+                           body.mesh(),           body.compound()};
       const std::vector<ScenePair> found = bodies.nearest(to, 1, query.within);
       put_result(i, found.empty() ? nullptr : &found[0], to, query, bodies, nearest);
     });

@@ -11,6 +11,7 @@
 #include "renderer/library/handles/held_shape.h"
 #include "renderer/library/handles/make_shape.h"
 #include "renderer/library/handles/nesting.h"
+#include "renderer/library/handles/poses.h"
 #include "renderer/member_json/shape_json.h"
 #include "renderer/scene/scene.h"
 
@@ -33,8 +34,18 @@ Vec3<double> of_ordinary_length(Vec3<double> direction) {
 
 const TriangleMesh& mesh_of(minkray_shape shape) {
   const HeldShape& held = shape_of(shape, "shape");
-  if (!held.mesh()) wrong_use("shape: must be a mesh (got a convex shape)");
+  if (!held.mesh())
+    wrong_use(std::string("shape: must be a mesh (got a ") +
+              (held.compound() ? "compound)" : "convex shape)"));
   return *held.mesh();
+}
+
+const Compound& compound_of(minkray_shape shape) {
+  const HeldShape& held = shape_of(shape, "shape");
+  if (!held.compound())
+    wrong_use(std::string("shape: must be a compound (got a ") +
+              (held.mesh() ? "mesh)" : "convex shape)"));
+  return *held.compound();
 }
 
 }  // namespace
@@ -170,6 +181,50 @@ int minkray_shape_mesh_arrays(minkray_shape shape, double (*vertices)[3],
   });
 }
 
+int minkray_shape_compound(const minkray_shape* shapes, const minkray_pose* poses, size_t count,
+                           minkray_shape* shape) {
+  return call("minkray_shape_compound", [&] {
+    require(shapes, "shapes");
+    require(shape, "shape");
+    if (count == 0) wrong_use("count: must be at least 1");
+    require_room(count, sizeof(minkray_pose), "count");
+    std::vector<Compound::Part> parts;
+    for (size_t i = 0; i < count; ++i) {
+      const std::string of_part = "[" + std::to_string(i) + "]";
+      const HeldShape& held = shape_of(shapes[i], ("shapes" + of_part).c_str());
+      if (!held.is_convex())
+        wrong_use("shapes" + of_part + ": must be convex (got a " +
+                  (held.mesh() ? "mesh)" : "compound)"));
+      refuse_if_running(held.customs(), "shapes");
+      Affine<double> pose;
+      if (poses) read_pose(&poses[i], ("poses" + of_part).c_str(), pose);
+      parts.push_back({*held.shape(), pose});
+    }
+    auto made = std::make_unique<HeldShape>(std::make_shared<const Compound>(std::move(parts)));
+    throw_if_lied(made->customs());
+    *shape = {held_shapes().add(std::move(made))};
+  });
+}
+
+int minkray_shape_compound_size(minkray_shape shape, size_t* count) {
+  return call("minkray_shape_compound_size", [&] {
+    require(count, "count");
+    *count = compound_of(shape).size();
+  });
+}
+
+int minkray_shape_compound_part(minkray_shape shape, size_t part, minkray_shape* made,
+                                minkray_pose* pose) {
+  return call("minkray_shape_compound_part", [&] {
+    const Compound& compound = compound_of(shape);
+    if (part >= compound.size())
+      wrong_use("part: must be less than " + std::to_string(compound.size()) + " (got " +
+                std::to_string(part) + ")");
+    if (pose) *pose = plain_pose(compound.part(part).pose);
+    if (made) *made = hold(compound.part(part).shape);
+  });
+}
+
 int minkray_shape_retain(minkray_shape shape) {
   return call("minkray_shape_retain", [&] {
     if (!held_shapes().retain(shape.id)) shape_of(shape, "shape");
@@ -185,7 +240,9 @@ int minkray_shape_release(minkray_shape shape) {
 int minkray_shape_write(minkray_shape shape, char* text, size_t size, size_t* needed) {
   return call("minkray_shape_write", [&] {
     const HeldShape& held = shape_of(shape, "shape");
-    if (held.mesh()) wrong_use("shape: meshes cannot be written");
+    if (!held.is_convex())
+      wrong_use(std::string("shape: ") + (held.mesh() ? "meshes" : "compounds") +
+                " cannot be written");
     if (!held.customs().empty()) wrong_use("shape: custom support functions cannot be written");
     const std::string json = write_shape(*held.shape()).dump();
     if (size > 0) require(text, "text");
@@ -201,8 +258,9 @@ int minkray_shape_kind(minkray_shape shape, const char** kind) {
   return call("minkray_shape_kind", [&] {
     require(kind, "kind");
     const HeldShape& held = shape_of(shape, "shape");
-    *kind = held.mesh()
-                ? mesh_name.data()
+    *kind = held.mesh() ? mesh_name.data()
+            : held.compound()
+                ? "compound"
                 : std::visit([]<class S>(const S&) { return S::name.data(); }, held.shape()->kind);
   });
 }
@@ -237,7 +295,9 @@ int minkray_shape_bounds(minkray_shape shape, double lower[3], double upper[3]) 
     refuse_if_running(held.customs(), "shape");
     require(lower, "lower");
     require(upper, "upper");
-    const Bounds<double> bounds = held.mesh() ? held.mesh()->bounds() : bounds_of(*held.shape());
+    const Bounds<double> bounds = held.mesh()       ? held.mesh()->bounds()
+                                  : held.compound() ? held.compound()->bounds()
+                                                    : bounds_of(*held.shape());
     throw_if_lied(held.customs());
     for (int k = 0; k < 3; ++k) {
       lower[k] = bounds.lower[k];

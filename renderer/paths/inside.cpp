@@ -65,7 +65,7 @@ Boundary exit_of(const World& world, const WorldRay& ray, std::uint32_t body, Qu
   }
   if (instances.is_mesh(body)) {
     PartCounts parts;
-    const MeshCast next =
+    const PartCast next =
         cast_ray(instances.mesh_of(body), seen, std::numeric_limits<double>::infinity(), true,
                  instances.loss_of_seen_by(body, ray.ray), parts);
     counts.add_parts(parts);
@@ -74,6 +74,11 @@ Boundary exit_of(const World& world, const WorldRay& ray, std::uint32_t body, Qu
     exit.part = next.part;
     exit.normal = instances.turned(body, -next.cast.normal, ray.time);
     return exit;
+  }
+  if (instances.is_compound(body)) {
+    const PartCast last =
+        cast_last_exit(instances.compound_of(body), seen, world.options(), counts);
+    return exit_by(world, ray, body, last.cast, counts);
   }
   return exit_by(world, ray, body,
                  cast_exit(instances.at_seen_by(body, ray.ray), seen, world.options()), counts);
@@ -101,12 +106,20 @@ WorldHit closest_but(const World& world, const WorldRay& ray, std::span<const st
       meet(
           half_space.instance,
           cast_ray(half_space.in_world, instances.seen_by(half_space.instance, ray.ray, ray.time)));
+  for (const PosedCompound& compound : instances.compounds()) {
+    if (is_left_out(compound.instance)) continue;
+    const PartCast cast = cast_ray(
+        compound, instances.seen_by(compound.instance, ray.ray, ray.time),
+        closest.found() ? closest.cast.t() : std::numeric_limits<double>::infinity(), false,
+        instances.loss_of_seen_by(compound.instance, ray.ray), world.options(), counts);
+    meet(compound.instance, cast.cast, cast.part);
+  }
   for (const PosedMesh& mesh : instances.meshes()) {
     if (is_left_out(mesh.instance)) continue;
     PartCounts parts;
     const double most =
         closest.found() ? closest.cast.t() : std::numeric_limits<double>::infinity();
-    const MeshCast cast = cast_ray(mesh, instances.seen_by(mesh.instance, ray.ray, ray.time), most,
+    const PartCast cast = cast_ray(mesh, instances.seen_by(mesh.instance, ray.ray, ray.time), most,
                                    false, instances.loss_of_seen_by(mesh.instance, ray.ray), parts);
     counts.add_parts(parts);
     meet(mesh.instance, cast.cast, cast.part);

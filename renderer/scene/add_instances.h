@@ -12,6 +12,8 @@ inline void add_object(Instances& instances, const Object& object) {
     instances.add(*object.half_space, object.pose);
   else if (object.mesh)
     instances.add(object.mesh, object.pose);
+  else if (object.compound)
+    instances.add(object.compound, object.pose);
   else if (object.definition)
     instances.add(instances.define(object.definition), object.pose);
   else

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/mesh/triangle_mesh.h"
+#include "core/parts/compound.h"
 #include "core/world/half_space.h"
 #include "renderer/scene/summary.h"
 
@@ -42,8 +43,16 @@ struct PlacedBody {
   double support_value(const Vec3<double>& n) const {
     if (!object) return n.cwiseProduct(box.lower).cwiseMax(n.cwiseProduct(box.upper)).sum();
     const Vec3<double> inner = pose.linear.transpose() * n;
-    if (!object->mesh) return n.dot(pose(object->shape.support(inner)));
+    if (object->has_shape()) return n.dot(pose(object->shape.support(inner)));
     double most = -std::numeric_limits<double>::infinity();
+    if (const Compound* const compound = object->compound.get()) {
+      for (std::size_t i = 0; i < compound->size(); ++i) {
+        const auto& [shape, place] = compound->part(i);
+        const Vec3<double> own = place.linear.transpose() * inner;
+        most = std::max(most, n.dot(pose(place(shape.support(own)))));
+      }
+      return most;
+    }
     for (const Vec3<double>& vertex : object->mesh->vertices())
       most = std::max(most, inner.dot(vertex));
     return most + n.dot(pose.translation);

@@ -16,13 +16,13 @@ constexpr double small_sine = 1e-6;
 /// Maps whose axes differ by more in length or angle are uneven.
 constexpr double most_uneven = 1e-9;
 
-struct Between {
+struct BetweenKeys {
   const PoseKey *from, *to;
   double fraction;
 };
 
 /// The keys around a time; the same one twice beyond the ends.
-Between between(const std::vector<PoseKey>& keys, double time) {
+BetweenKeys between(const std::vector<PoseKey>& keys, double time) {
   const auto after = std::upper_bound(keys.begin(), keys.end(), time,
                                       [](double t, const PoseKey& key) { return t < key.time; });
   if (after == keys.begin()) return {&keys.front(), &keys.front(), 0};
@@ -50,11 +50,11 @@ Quaternion slerp(const Quaternion& a, Quaternion b, double fraction) {
   return q;
 }
 
-Quaternion slerp(const Between& at) {
+Quaternion slerp(const BetweenKeys& at) {
   return at.fraction == 0 ? at.from->rotate : slerp(at.from->rotate, at.to->rotate, at.fraction);
 }
 
-Vec3<double> lerp(const Between& at) {
+Vec3<double> lerp(const BetweenKeys& at) {
   if (at.fraction == 0) return at.from->translate;
   return at.from->translate + at.fraction * (at.to->translate - at.from->translate);
 }
@@ -66,7 +66,7 @@ Vec3<double> Motion::translation_at(double time) const {
 }
 
 Affine<double> Motion::pose_at(double time) const {
-  const Between at = between(keys, time);
+  const BetweenKeys at = between(keys, time);
   const Quaternion q = slerp(at);
   return Affine<double>{rotation_matrix(q[0], q[1], q[2], q[3]), lerp(at)} * rest;
 }
@@ -93,7 +93,7 @@ std::optional<Motion> Motion::posed(const Affine<double>& frame) const {
 }
 
 Movement<double> Motion::movement(double begin, double end) const {
-  const Between first = between(keys, begin), last = between(keys, end);
+  const BetweenKeys first = between(keys, begin), last = between(keys, end);
   const Quaternion a = slerp(first), b = slerp(last);
   // b a^-1 is what is turned between; by the shorter way its w is not negative.
   Vec3<double> xyz = a[3] * Vec3<double>(b[0], b[1], b[2]) - b[3] * Vec3<double>(a[0], a[1], a[2]) -

@@ -26,6 +26,7 @@
 
 namespace minkray {
 
+class Compound;
 class ShapeDefinition;
 class TriangleMesh;
 struct MeshAttributes;
@@ -48,12 +49,13 @@ struct Object {
   std::optional<HalfSpaceBody<double>> half_space =
       {};                                         ///< if there is one it is that, not `shape`
   std::shared_ptr<const TriangleMesh> mesh = {};  ///< the same
+  std::shared_ptr<const Compound> compound = {};  ///< the same; only a library's scenes have them
   RayKinds visible_to = all_ray_kinds;  ///< and to no rays that its material is not visible to
   std::shared_ptr<const ShapeDefinition> definition = {};  ///< of the shape, if shared
   std::shared_ptr<const MeshLook> look = {};               ///< of the mesh, if it has one
 
-  /// Neither a half-space nor a mesh.
-  bool has_shape() const { return !half_space && !mesh; }
+  /// Not a half-space, mesh or compound.
+  bool has_shape() const { return !half_space && !mesh && !compound; }
 };
 
 /// "type" of a half-space, used like a shape's name.

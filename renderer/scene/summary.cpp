@@ -7,7 +7,8 @@
 
 #include "core/derived/shape_bounds.h"
 #include "core/parallel/parallel_reduce.h"
-#include "core/world/posed_mesh.h"
+#include "core/parts/compound.h"
+#include "core/world/posed_compound.h"
 
 namespace minkray {
 namespace {
@@ -63,6 +64,7 @@ class Counter {
 
 Bounds<double> bounds_of(const Object& object) {
   if (object.mesh) return PosedMesh(0, object.mesh, object.pose).bounds();
+  if (object.compound) return bounds_under(*object.compound, object.pose);
   return bounds_of(Transform{Nested(object.shape), object.pose});
 }
 
@@ -86,6 +88,9 @@ SceneSummary summarise(const Scene& scene) {
     else if (object.mesh) {
       ++meshes;
       if (counted.insert(object.mesh.get()).second) counter.bytes += object.mesh->bytes();
+    } else if (object.compound) {
+      for (std::size_t i = 0; i < object.compound->size(); ++i)
+        counter.add(object.compound->part(i).shape, false);
     } else
       counter.add(object.shape, false);
     counter.bytes += sizeof(Object) + object.name.capacity();

@@ -149,7 +149,7 @@ void SceneWhile::meet_movers(const WorldRay& ray, double time, WorldHit& closest
     const double most =
         closest.found() ? closest.cast.t() : std::numeric_limits<double>::infinity();
     PartCounts parts;
-    const MeshCast met =
+    const PartCast met =
         cast_ray(posed_at(body, time), ray.ray, most, object == ray.skip, 0, parts);
     counts.add_parts(parts);
     if (meet(object, met.cast)) closest.part = met.part;
@@ -197,6 +197,10 @@ CastResult<double> SceneWhile::exit(std::uint32_t instance, const Ray<double>& r
   }
   const std::uint32_t number = scene_.still_number(instance);
   if (still.is_mesh(number)) return cast_exit(still.mesh_of(number), ray);
+  if (still.is_compound(number)) {
+    QueryCounts counts;
+    return cast_last_exit(still.compound_of(number), ray, {}, counts).cast;
+  }
   return cast_exit(still.at(number), ray);
 }
 

@@ -29,7 +29,7 @@ inline WorldHit first_of_all(const World& world, const WorldRay& ray) {
   WorldHit first = WorldHit::miss();
   for (std::uint32_t i = 0; i < instances.size(); ++i) {
     if (i == ray.skip || !instances.is_shown_to(i, ray.kinds)) continue;
-    MeshCast met;
+    PartCast met;
     PartCounts parts;
     if (instances.is_half_space(i)) {
       for (const auto& one : instances.half_spaces())

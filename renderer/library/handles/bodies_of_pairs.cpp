@@ -101,13 +101,15 @@ BodiesOfPairs::BodiesOfPairs(const minkray_bodies* given, std::size_t count, con
   // Prepares shapes before pairs wait for each other's support points, since a shape is locked
   // while it is prepared.
   for (const HeldShape* const held : shapes_)
-    if (!held->mesh()) held->contact();
+    if (held->is_convex()) held->contact();
 }
 
 void PosedBody::take_map_in(const HeldShape& held) {
   const Affine<double> map{pose_.linear, Vec3<double>::Zero()};
   if (mesh_) {
     mesh_ = mapped(*mesh_, map);
+  } else if (compound_) {
+    compound_ = compound_->mapped(map);
   } else {
     own_ = std::make_unique<const ContactShape>(*held.shape(), map);
     shape_ = own_.get();
@@ -117,13 +119,12 @@ void PosedBody::take_map_in(const HeldShape& held) {
 
 const ContactShape& PosedBody::shape_or_point() const {
   static const ContactShape point{Shape(Point())};
-  return mesh_ ? point : *shape_;
+  return is_shape() ? *shape_ : point;
 }
 
 void BodiesOfPairs::read(std::size_t i, PosedBody& body) const {
   const HeldShape& held = *shapes_[shapes_.size() == 1 ? 0 : i];
-  body.mesh_ = held.mesh();
-  if (!body.mesh_) body.shape_ = &held.contact();
+  body.set(held);
   if (!given_.poses) {
     body.pose_ = Affine<double>();
     return;

@@ -24,30 +24,42 @@ class PosedBody {
   PosedBody(const HeldShape& held, const minkray_pose* pose, const char* argument) {
     refuse_if_running(held.customs(), argument);
     const bool is_rigid = read_pose(pose, argument, pose_);
-    if (held.mesh()) [[unlikely]]
-      mesh_ = held.mesh();
-    else if (is_rigid) [[likely]]
-      shape_ = &held.contact();
+    if (is_rigid || !held.is_convex()) [[likely]]
+      set(held);
     if (!is_rigid) [[unlikely]]
       take_map_in(held);
   }
 
-  PartsBody parts() const { return mesh_ ? PartsBody(*mesh_) : PartsBody(*shape_); }
-  bool is_mesh() const { return mesh_ != nullptr; }
+  PartsBody parts() const {
+    if (mesh_) return *mesh_;
+    if (compound_) return *compound_;
+    return *shape_;
+  }
+  bool is_shape() const { return !mesh_ && !compound_; }
   const std::shared_ptr<const TriangleMesh>& mesh() const { return mesh_; }
-  /// Not of a mesh.
+  const std::shared_ptr<const Compound>& compound() const { return compound_; }
+  /// Only if is_shape().
   const ContactShape& shape() const { return *shape_; }
-  /// A placeholder point for a mesh.
+  /// A placeholder point for a mesh or compound.
   const ContactShape& shape_or_point() const;
   const Affine<double>& pose() const { return pose_; }
 
  private:
   friend class BodiesOfPairs;
+  void set(const HeldShape& held) {
+    if (!is_shape() || !held.is_convex()) [[unlikely]] {
+      mesh_ = held.mesh();
+      compound_ = held.compound();
+    }
+    if (held.is_convex()) [[likely]]
+      shape_ = &held.contact();
+  }
   /// Moves the linear part of the pose into the shape.
   void take_map_in(const HeldShape& held);
 
   const ContactShape* shape_ = nullptr;
   std::shared_ptr<const TriangleMesh> mesh_;
+  std::shared_ptr<const Compound> compound_;
   Affine<double> pose_;
   /// Set if the map is part of the shape.
   std::unique_ptr<const ContactShape> own_;

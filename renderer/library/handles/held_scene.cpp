@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/files/text.h"
+#include "core/parts/compound.h"
 #include "renderer/import/scene_of_model.h"
 #include "renderer/library/handles/call.h"
 #include "renderer/library/handles/scene_bodies.h"
@@ -78,8 +79,11 @@ std::uint32_t HeldScene::add(const HeldShape& shape, const Affine<double>& pose,
   check_room(1);
   keep_customs(shape.customs());
   Instances& instances = changed();
-  if (shape.mesh()) {
-    instances.add(shape.mesh(), pose);
+  if (!shape.is_convex()) {
+    if (shape.mesh())
+      instances.add(shape.mesh(), pose);
+    else
+      instances.add(shape.compound(), pose);
     return number_of_added(name);
   }
   const bool is_custom = !shape.customs().empty();
@@ -210,14 +214,11 @@ Object HeldScene::object(std::uint32_t number) const {
   object.name = name(number);
   object.material = *grey_;
   object.pose = pose(number);
-  if (instances().is_mesh(number)) {
-    object.mesh = instances().mesh_of(number).mesh;
-    return object;
-  }
+  if (instances().is_mesh(number)) object.mesh = instances().mesh_of(number).mesh;
+  if (instances().is_compound(number)) object.compound = instances().compound_of(number).compound;
   if (instances().has_shape(number)) {
     object.shape = instances().body_of(number).definition->original_shape();
     object.definition = instances().body_of(number).definition;
-    return object;
   }
   for (const Instances::PosedHalfSpace& one : instances().half_spaces())
     if (one.instance == number) object.half_space = one.at_rest;
@@ -311,6 +312,9 @@ void HeldScene::remove(std::uint32_t number) {
   std::unordered_set<std::uint32_t> definitions;
   for (std::uint32_t i = 0; i < size_; ++i)
     if (!is_removed(i) && instances.has_shape(i)) definitions.insert(instances.definition_of(i));
+  for (const PosedCompound& posed : instances.compounds())
+    for (std::size_t part = 0; part < posed.compound->size(); ++part)
+      if (!is_removed(posed.instance)) keep_customs(customs_of(posed.compound->part(part).shape));
   for (const std::uint32_t definition : definitions)
     keep_customs(customs_of(instances.definition(definition).original_shape()));
 }

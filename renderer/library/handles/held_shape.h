@@ -10,6 +10,7 @@
 #include "core/mesh/triangle_mesh.h"
 #include "core/model/shape_definition.h"
 #include "core/pair/contact_shape.h"
+#include "core/parts/compound.h"
 #include "renderer/library/handles/custom_support.h"
 #include "renderer/library/handles/handles.h"
 
@@ -21,9 +22,14 @@ class HeldShape {
   explicit HeldShape(Shape shape) : shape_(std::move(shape)), customs_(customs_of(*shape_)) {}
   explicit HeldShape(std::shared_ptr<const TriangleMesh> mesh)
       : mesh_(std::move(mesh)), shape_(Point()) {}
+  explicit HeldShape(std::shared_ptr<const Compound> compound);
 
-  /// Null unless it is a mesh. The members below throw CallError for a mesh, which is not convex.
+  /// Null unless it is a mesh.
   const std::shared_ptr<const TriangleMesh>& mesh() const { return mesh_; }
+  /// Null unless it is a compound.
+  const std::shared_ptr<const Compound>& compound() const { return compound_; }
+  /// If not, the members below throw CallError.
+  bool is_convex() const { return !mesh_ && !compound_; }
 
   const Nested& shape() const { return convex().shape_; }
   const std::vector<std::shared_ptr<const CustomSupport>>& customs() const { return customs_; }
@@ -46,10 +52,10 @@ class HeldShape {
   }
 
  private:
-  [[noreturn]] static void refuse_mesh();
+  [[noreturn]] void refuse() const;
   const HeldShape& convex() const {
-    if (mesh_) [[unlikely]]
-      refuse_mesh();
+    if (!is_convex()) [[unlikely]]
+      refuse();
     return *this;
   }
 
@@ -74,6 +80,7 @@ class HeldShape {
   };
 
   std::shared_ptr<const TriangleMesh> mesh_;
+  std::shared_ptr<const Compound> compound_;
   Nested shape_;
   std::vector<std::shared_ptr<const CustomSupport>> customs_;
   Once<ContactShape> contact_;

@@ -8,8 +8,10 @@
 
 #include "core/derived/shape_bounds.h"
 #include "core/parallel/parallel.h"
+#include "core/parts/compound.h"
 #include "renderer/audit/half_space_verdict.h"
 #include "renderer/audit/mesh_verdict.h"
+#include "renderer/clearance/bodies.h"
 #include "renderer/library/handles/call.h"
 #include "renderer/scene/scene_instances.h"
 
@@ -78,14 +80,24 @@ void complain(minkray_proof& proof, std::string_view complaint, std::uint32_t ag
 
 }  // namespace
 
-Prover::Prover(const HeldScene& scene) : world_(scene.world()), bodies_(world_.instances().size()) {
+Prover::Prover(const HeldScene& scene) : world_(scene.world()) {
   const bool has_customs = !scene.customs().empty();
   const Scene whole = scene.whole();
+  for (const std::uint32_t object : objects_of_bodies(whole)) {
+    if (object == first_.size()) first_.push_back(bodies_.size());
+    bodies_.emplace_back().object = object;
+  }
+  first_.push_back(bodies_.size());
   parallel_for(bodies_.size(), grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      const Object object = instance_object(whole, i);
       Body& body = bodies_[i];
-      body.is_removed = scene.is_removed(static_cast<std::uint32_t>(i));
+      Object object = instance_object(whole, body.object);
+      body.is_removed = scene.is_removed(body.object);
+      if (object.compound) {
+        const auto& [shape, pose] = object.compound->part(i - first_[body.object]);
+        object.shape = shape;
+        object.pose = object.pose * pose;
+      }
       if (object.half_space) {
         body.half_space = object.half_space->posed(object.pose);
         continue;
@@ -120,15 +132,24 @@ CertificateVerdict Prover::verdict(const Body& body, const Ray<double>& ray, con
   return verdict;
 }
 
-bool Prover::keeps_off(std::uint32_t index, const Ray<double>& ray, double t_lo) const {
-  const Body& body = bodies_[index];
+const Prover::Body* Prover::body_of(const minkray_hit& hit) const {
+  if (hit.object + std::size_t{1} >= first_.size()) return nullptr;
+  const std::size_t first = first_[hit.object], count = first_[hit.object + 1] - first;
+  const bool is_compound = world_.instances().is_compound(hit.object);
+  const std::size_t part = is_compound ? static_cast<std::uint32_t>(hit.part) : 0;
+  return part < count && !bodies_[first].is_removed ? &bodies_[first + part] : nullptr;
+}
+
+bool Prover::keeps_off(const Body& body, const Ray<double>& ray, double t_lo) const {
   Ray<double> before = ray;
   before.t_max = t_lo;
   PartCounts parts;
   const CastResult<double> cast = body.mesh
                                       ? cast_ray(*body.mesh, before, t_lo, false, 0, parts).cast
-                                  : body.shape ? cast_ray(world_.instances().at(index), before)
-                                               : cast_ray(body.half_space, before);
+                                  : !body.shape ? cast_ray(body.half_space, before)
+                                  : world_.instances().has_shape(body.object)
+                                      ? cast_ray(world_.instances().at(body.object), before)
+                                      : cast_ray(PreparedShape(*body.shape), before);
   const CertificateVerdict found = verdict(body, before, claim_of(cast), nullptr);
   if (!found.holds) return false;
   if (cast.status == Status::miss) return true;
@@ -146,9 +167,11 @@ minkray_proof Prover::prove(const Ray<double>& ray, const minkray_hit& hit) cons
     complain(proof, "the solver gave up", MINKRAY_NO_OBJECT);
     return proof;
   }
+  const Body* body = nullptr;
   const bool is_met = hit.status == MINKRAY_HIT || hit.status == MINKRAY_INSIDE;
   if (is_met) {
-    if (hit.object >= bodies_.size() || bodies_[hit.object].is_removed) {
+    body = body_of(hit);
+    if (!body) {
       complain(proof, "no such object", hit.object);
       return proof;
     }
@@ -158,7 +181,7 @@ minkray_proof Prover::prove(const Ray<double>& ray, const minkray_hit& hit) cons
     claim.t_offset = hit.t_offset;
     claim.normal = {hit.normal[0], hit.normal[1], hit.normal[2]};
     Certificate certificate;
-    const CertificateVerdict found = verdict(bodies_[hit.object], ray, claim, &certificate);
+    const CertificateVerdict found = verdict(*body, ray, claim, &certificate);
     proof.checked = 1;
     proof.allowed = found.allowed;
     if (hit.status == MINKRAY_HIT) {
@@ -175,15 +198,14 @@ minkray_proof Prover::prove(const Ray<double>& ray, const minkray_hit& hit) cons
   // Nothing is before what the ray begins in.
   if (hit.status == MINKRAY_INSIDE) return proof;
   const double end = is_met ? proof.t_lo : ray.t_max;
-  for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
-    const Body& body = bodies_[i];
-    if (body.is_removed || (is_met && i == hit.object)) continue;
-    if (body.shape && misses_box(body.bounds, ray, end)) continue;
+  for (const Body& other : bodies_) {
+    if (other.is_removed || &other == body) continue;
+    if (other.shape && misses_box(other.bounds, ray, end)) continue;
     ++proof.checked;
-    if (!keeps_off(i, ray, end)) {
+    if (!keeps_off(other, ray, end)) {
       complain(proof,
                is_met ? "another object before it is not separated" : "an object is not separated",
-               i);
+               other.object);
       return proof;
     }
   }

@@ -19,8 +19,9 @@ class Prover {
   minkray_proof prove(const Ray<double>& ray, const minkray_hit& hit) const;
 
  private:
-  /// One instance in the world.
+  /// One instance in the world, or one part of a compound.
   struct Body {
+    std::uint32_t object = 0;
     bool is_removed = false;
     std::optional<Shape> shape;  ///< none: a half-space or mesh
     std::optional<PosedMesh> mesh;
@@ -32,10 +33,13 @@ class Prover {
   CertificateVerdict verdict(const Body& body, const Ray<double>& ray, const Claim& claim,
                              Certificate* found) const;
   /// True if the ray is proven not to hit the body before t_lo.
-  bool keeps_off(std::uint32_t index, const Ray<double>& ray, double t_lo) const;
+  bool keeps_off(const Body& body, const Ray<double>& ray, double t_lo) const;
+  /// The body that a hit claims to hit; null if there is none.
+  const Body* body_of(const minkray_hit& hit) const;
 
   const World& world_;
   std::vector<Body> bodies_;
+  std::vector<std::size_t> first_;  ///< index of each object's first body, and the number of bodies
 };
 
 }  // namespace minkray

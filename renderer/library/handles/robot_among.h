@@ -59,11 +59,15 @@ inline JointPath path_of(const Model& model, const std::vector<JointRow>& rows) 
 /// Everything else in the scene as the robot's own frame has it.
 inline void add_obstacles(const HeldScene& held, const HeldScene::Group& robot,
                           std::vector<ClearanceBody>& bodies, std::vector<std::uint32_t>& objects) {
-  std::vector<ClearanceBody> all = bodies_of(held.whole());
-  for (std::uint32_t i = 0; i < all.size(); ++i) {
-    if (held.is_removed(i) || (i >= robot.first && i - robot.first < robot.count)) continue;
+  const Scene whole = held.whole();
+  std::vector<ClearanceBody> all = bodies_of(whole);
+  const std::vector<std::uint32_t> numbers = objects_of_bodies(whole);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::uint32_t object = numbers[i];
+    if (held.is_removed(object)) continue;
+    if (object >= robot.first && object - robot.first < robot.count) continue;
     bodies.push_back(seen_from(robot.pose, std::move(all[i])));
-    objects.push_back(i);
+    objects.push_back(object);
   }
 }
 

@@ -146,12 +146,13 @@ ContactManifold SceneBodies::manifold(std::uint32_t a, std::uint32_t b,
     const HalfSpace* const half_space = half_space_of(object);
     if (!half_space) return body_of(object);
     const ContactBody& body = body_of(other);
-    if (body.mesh) return as_box(half_space->plane, body.pose.translation, body.mesh->reach());
+    if (!body.is_shape())
+      return as_box(half_space->plane, body.pose.translation, reach_of(body.parts()));
     return as_box(half_space->plane, middle_in_world(body.shape, body.pose),
                   body.shape.ball_radius());
   };
   const ContactBody one = solid(a, b), other = solid(b, a);
-  if (one.mesh || other.mesh)
+  if (!one.is_shape() || !other.is_shape())
     return contact_manifold(one.parts(), one.pose, other.parts(), other.pose);
   return contact_manifold(one.shape, one.pose, other.shape, other.pose, nearest);
 }
@@ -161,7 +162,7 @@ PairDerivative SceneBodies::derivative(const ScenePair& pair, PairDerivativeErro
   const HalfSpace *plane_a = half_space_of(pair.a), *plane_b = half_space_of(pair.b);
   if (!plane_a && !plane_b) {
     const ContactBody &one = body_of(pair.a), &other = body_of(pair.b);
-    if (one.mesh || other.mesh)
+    if (!one.is_shape() || !other.is_shape())
       return derivative_of(one.parts(), one.pose, other.parts(), other.pose);
     return finest_derivative_of(one.shape, one.pose, other.shape, other.pose, error);
   }
@@ -208,7 +209,8 @@ PairDerivative SceneBodies::derivative(const ContactBody& of, const ScenePair& p
     return derivative;
   }
   const ContactBody& other = body_of(pair.b);
-  if (of.mesh || other.mesh) return derivative_of(of.parts(), of.pose, other.parts(), other.pose);
+  if (!of.is_shape() || !other.is_shape())
+    return derivative_of(of.parts(), of.pose, other.parts(), other.pose);
   return finest_derivative_of(of.shape, of.pose, other.shape, other.pose, error);
 }
 
@@ -294,7 +296,7 @@ PairDerivative SceneBodies::derivative(const PartsBody& moving, const RigidMotio
   const ContactBody body = half_space ? as_box(half_space->plane, motion.pose.translation,
                                                way_of(moving, motion, found.impact.t_lo))
                                       : body_of(object);
-  if (moving.shape() && !body.mesh) {
+  if (moving.shape() && body.is_shape()) {
     const PairDerivative derivative =
         derivative_of(*moving.shape(), motion, body.shape, {body.pose}, found.impact);
     if (error)

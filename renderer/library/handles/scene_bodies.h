@@ -34,7 +34,8 @@ class SceneBodies {
   /// Independent of the rules. Throws CallError if both are half-spaces.
   SignedDistance distance(std::uint32_t a, std::uint32_t b, const SignedDistanceOptions& how) const;
   ContactManifold manifold(std::uint32_t a, std::uint32_t b, const SignedDistance& nearest) const;
-  /// Fills `error`, if there is one; infinite for meshes, whose other triangles are not considered.
+  /// Fills `error`, if there is one; infinite for meshes and compounds, whose other parts are not
+  /// considered.
   PairDerivative derivative(const ScenePair& pair, PairDerivativeError* error = nullptr) const;
 
   /// The objects nearest to a body, the nearest first; of those in a category of the mask.

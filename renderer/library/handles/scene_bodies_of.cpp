@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Makes the bodies of a committed scene: scales become part of shapes and meshes, and robots'
-// meshes touch as their files prescribe.
+// Makes the bodies of a committed scene: scales become part of shapes, meshes and compounds, and
+// robots' meshes touch as their files prescribe.
 #include <limits>
 #include <memory>
 #include <unordered_map>
@@ -75,6 +75,18 @@ SceneBodies::SceneBodies(const HeldScene& scene) : scene_(scene) {
       bodies.push_back({point_, place, masks.category, masks.mask, std::move(mesh)});
       continue;
     }
+    if (instances.is_compound(i)) {
+      std::shared_ptr<const Compound> compound = instances.compound_of(i).compound;
+      Affine<double> place = pose;
+      if (!is_rigid(pose)) {
+        compound = compound->mapped({pose.linear, Vec3<double>::Zero()});
+        place.linear.setIdentity();
+      }
+      body_of_[i] = static_cast<std::uint32_t>(bodies.size());
+      objects_.push_back(i);
+      bodies.push_back({point_, place, masks.category, masks.mask, {}, std::move(compound)});
+      continue;
+    }
     const std::uint32_t number = instances.definition_of(i);
     const Shape& shape = instances.definition(number).original_shape();
     body_of_[i] = static_cast<std::uint32_t>(bodies.size());
@@ -93,9 +105,9 @@ SceneBodies::SceneBodies(const HeldScene& scene) : scene_(scene) {
   world_.emplace(std::move(bodies));
   balls_.reserve(objects_.size());
   for (const ContactBody& body : world_->bodies())
-    balls_.push_back(body.mesh
-                         ? Ball{body.pose.translation, std::numeric_limits<double>::infinity()}
-                         : Ball{middle_in_world(body.shape, body.pose), body.shape.ball_radius()});
+    balls_.push_back(body.is_shape()
+                         ? Ball{middle_in_world(body.shape, body.pose), body.shape.ball_radius()}
+                         : Ball{body.pose.translation, std::numeric_limits<double>::infinity()});
   for (const Instances::PosedHalfSpace& one : instances.half_spaces()) {
     if (scene.is_removed(one.instance)) continue;
     const Affine<double> pose = scene.pose_of_any(one.instance);

@@ -177,11 +177,33 @@ py::dict mesh_info(const Shape& shape) {
   return result;
 }
 
+Shape compound(const std::vector<Shape>& shapes, const Doubles& poses) {
+  std::vector<minkray_shape> handles;
+  for (const Shape& shape : shapes) handles.push_back(shape.handle());
+  minkray_shape made;
+  const Unlocked unlock;
+  check(minkray_shape_compound(handles.data(), reinterpret_cast<const minkray_pose*>(poses.data()),
+                               handles.size(), &made));
+  return Shape(made);
+}
+
+py::tuple compound_parts(const Shape& shape) {
+  const std::size_t count = minkray::compound_size(shape);
+  py::list shapes;
+  py::array_t<double> poses({static_cast<py::ssize_t>(count), py::ssize_t{3}, py::ssize_t{4}});
+  for (std::size_t i = 0; i < count; ++i) {
+    const minkray::Part part = minkray::compound_part(shape, i);
+    shapes.append(part.shape);
+    std::copy_n(&part.pose.rows[0][0], 12, poses.mutable_data() + 12 * i);
+  }
+  return py::make_tuple(shapes, poses);
+}
+
 }  // namespace
 
 void bind_shapes(py::module_& module) {
   py::class_<Shape>(module, "Shape",
-                    "An immutable convex shape or mesh.\n\n"
+                    "An immutable convex shape, mesh or compound.\n\n"
                     "Made by functions such as `minkray.box`; see `minkray.custom` for your own.")
       .def("_kind", &Shape::kind)
       .def("_support", &support)
@@ -198,14 +220,15 @@ void bind_shapes(py::module_& module) {
            })
       .def("_json", &Shape::json<std::string>)
       .def("__repr__", [](const Shape& shape) {
-        if (std::string(shape.kind()) == "custom") return std::string("<minkray.Shape custom>");
-        if (std::string(shape.kind()) == "mesh") return std::string("<minkray.Shape mesh>");
+        const std::string kind = shape.kind();
+        if (kind == "custom" || kind == "mesh" || kind == "compound")
+          return "<minkray.Shape " + kind + ">";
         try {
           std::string text = shape.json<std::string>();
           if (text.size() > 200) text = text.substr(0, 197) + "...";
           return "<minkray.Shape " + text + ">";
         } catch (const minkray::Error&) {  // of what is custom within
-          return "<minkray.Shape " + std::string(shape.kind()) + ", custom within>";
+          return "<minkray.Shape " + kind + ", custom within>";
         }
       });
   module.def("make", &make);
@@ -214,6 +237,8 @@ void bind_shapes(py::module_& module) {
   module.def("height_field", &height_field);
   module.def("mesh_info", &mesh_info);
   module.def("mesh_arrays", &mesh_arrays);
+  module.def("compound", &compound);
+  module.def("compound_parts", &compound_parts);
   module.def("read_shape", [](const std::string& json, const std::string& folder) {
     return minkray::read_shape(json, folder);
   });

@@ -262,7 +262,7 @@ TEST(LastExit, is_the_last_of_all_triangles) {
     std::ranges::sort(all, {}, &TrueHit::t);
     std::size_t within = 0;
     while (within < all.size() && all[within].t <= Quad(ray.t_max)) ++within;
-    const MeshCast exit = cast_last_exit(posed, ray, 0);
+    const PartCast exit = cast_last_exit(posed, ray, 0);
     if (within < all.size() && all[within].leaves) {
       ASSERT_EQ(exit.cast.status, Status::inside) << i;
       ++inside;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Meshes in Python: python_mesh_test.py (PYTHONPATH: the module's folder)."""
+import pickle
 import unittest
 
 import numpy as np
@@ -89,6 +90,60 @@ class Meshes(unittest.TestCase):
                 mk.mesh(*wrong)
         self.assertEqual(mk.mesh_info(mk.mesh(vertices, triangles))["open_edges"], 0)
         self.assertEqual(repr(mk.mesh(vertices, triangles)), "<minkray.Shape mesh>")
+
+    def test_a_pair_has_its_own_bodies_whatever_the_pair_before_has(self):
+        ball, ring = mk.sphere(0.5), mk.mesh(*torus())
+        table = mk.compound([mk.box([1, 1, 0.1]), mk.sphere(0.2)], [[0, 0, 1, 1, 0, 0, 0], [0, 0, 0, 1, 0, 0, 0]])
+        bodies, pose = [ring, ball, table, ball, ring, table], [5, 0, 0, 1, 0, 0, 0]
+        many = mk.signed_distances(bodies, np.tile([0, 0, 0, 1, 0, 0, 0], (6, 1)), ball, pose)
+        one = [float(mk.signed_distance(body, None, ball, pose).value) for body in bodies]
+        self.assertEqual(many.value.tolist(), one)
+        self.assertAlmostEqual(one[1], 4)
+
+
+class Compounds(unittest.TestCase):
+    def setUp(self):
+        rng = np.random.default_rng(3)
+        self.shapes = [mk.sphere(0.3), mk.box([0.2, 0.4, 0.1]), mk.cylinder(0.2, 0.5), mk.rounded(mk.cone(0.3, 0.4), 0.05)]
+        self.poses = np.concatenate([rng.uniform(-1, 1, (4, 3)), rng.normal(size=(4, 4))], axis=1)
+        self.compound = mk.compound(self.shapes, self.poses)
+
+    def test_rays_and_distances_are_those_of_the_parts(self):
+        rng = np.random.default_rng(4)
+        rays = np.concatenate([rng.normal(size=(1000, 3)) * 3, np.zeros((1000, 3))], axis=1)
+        rays[:, 3:] = rng.uniform(-1, 1, (1000, 3)) - rays[:, :3]
+        scene, parts = mk.Scene(), mk.Scene()
+        scene.add(self.compound)
+        for shape, pose in zip(self.shapes, self.poses):
+            parts.add(shape, pose)
+        scene.commit()
+        parts.commit()
+        hits, expected = scene.cast_rays(rays), parts.cast_rays(rays)
+        np.testing.assert_array_equal(hits.status, expected.status)
+        met = hits.status == mk.HIT
+        self.assertGreater(met.sum(), 100)
+        np.testing.assert_allclose(hits.t[met], expected.t[met], rtol=1e-12)
+        np.testing.assert_array_equal(hits.part[met], expected.object[met])
+        self.assertTrue(scene.certify(rays, hits).holds.all())
+        points = rng.uniform(-3, 3, (200, 3))
+        poses = np.concatenate([points, np.tile([1, 0, 0, 0], (200, 1))], axis=1)
+        found = mk.signed_distances(self.compound, None, mk.point([0, 0, 0]), poses)
+        each = [mk.signed_distances(shape, pose, mk.point([0, 0, 0]), poses).value
+                for shape, pose in zip(self.shapes, self.poses)]
+        np.testing.assert_allclose(found.value, np.maximum(np.min(each, axis=0), 0), atol=1e-11)
+
+    def test_is_copied_pickled_and_taken_apart(self):
+        shapes, poses = mk.compound_parts(self.compound)
+        self.assertEqual([shape.kind for shape in shapes], ["sphere", "box", "cylinder", "rounded"])
+        self.assertEqual(poses.shape, (4, 3, 4))
+        again = pickle.loads(pickle.dumps(self.compound))
+        self.assertEqual(again.kind, "compound")
+        np.testing.assert_array_equal(again.bounds(), self.compound.bounds())
+        self.assertEqual(repr(again), "<minkray.Shape compound>")
+        for wrong in (lambda: mk.compound([]), lambda: mk.compound(self.shapes, self.poses[:2]),
+                      lambda: mk.compound([self.compound]), lambda: mk.compound_parts(mk.sphere(1))):
+            with self.assertRaises(mk.Error):
+                wrong()
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ from .answers import (EXHAUSTED, HIT, INSIDE, MISS, NO_OBJECT, AllHits, Clearanc
 from .robots import Robot
 from .scene import Scene
 from .rays import camera, lidar, pinhole
-from .meshes import height_field, mesh, mesh_info
+from .meshes import compound, compound_parts, height_field, mesh, mesh_info
 from .shapes import *
 from . import shape_methods as _shape_methods
 from .shapes_of_shapes import difference, hull_of, rounded, scaled, sum, swept, transformed, translated

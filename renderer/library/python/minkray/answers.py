@@ -94,7 +94,7 @@ class Hits(_Arrays):
     supports : int32
         Number of calls of the object's support mapping.
     part : int32
-        The triangle, if the object is a mesh; else -1.
+        The triangle or part, if the object is a mesh or compound; else -1.
     jac_ray : float64, six numbers each
         With ``jac=True``: the derivative of `t` with respect to the ray's origin and its direction;
         NaN for a miss, zero if the ray begins inside.
@@ -134,7 +134,7 @@ class AllHits:
     object : uint32
         Number of the object.
     part : int32
-        The triangle, if the object is a mesh; else -1.
+        The triangle or part, if the object is a mesh or compound; else -1.
     leaves : bool
         False where the ray enters the object, True where it leaves.
     ray : int64

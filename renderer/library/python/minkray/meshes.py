@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
-"""Meshes and height fields."""
+"""Meshes, height fields and compounds."""
 import numpy as np
 
 from . import _minkray
-from .calls import Error, array_of, number_of, public, shape_of, vectors_of
+from .calls import Error, array_of, number_of, poses_of, public, shape_of, shapes_array, vectors_of
 
 
 @public
@@ -106,3 +106,46 @@ def mesh_info(mesh):
         'repeated' triangles.
     """
     return _minkray.mesh_info(shape_of(mesh, "mesh"))
+
+
+@public
+def compound(shapes, poses=None):
+    """A solid of convex parts.
+
+    Parameters
+    ----------
+    shapes : list of Shape
+        Convex: not meshes or compounds.
+    poses : (N, 4, 4) or (N, 7) array, optional
+        One for each part.
+
+    Returns
+    -------
+    Shape
+        Usable like a mesh. The `part` of a hit is the index of the shape.
+
+    Examples
+    --------
+    >>> import minkray as mk
+    >>> hammer = mk.compound([mk.cylinder(0.1, 1), mk.box([0.5, 0.2, 0.2])], [[0, 0, 0, 1, 0, 0, 0], [0, 0, 1, 1, 0, 0, 0]])
+    >>> scene = mk.Scene()
+    >>> _ = scene.add(hammer)
+    >>> scene.commit()
+    >>> hit = scene.cast_rays([0.4, 0, 9, 0, 0, -1])
+    >>> round(float(hit.t), 12), int(hit.part)
+    (7.8, 1)
+    """
+    parts = shapes_array(shapes, "shapes")
+    if parts.ndim != 1 or not parts.size:
+        raise Error(f"shapes: must be a list of shapes (got shape {parts.shape})")
+    maps = np.ascontiguousarray(np.broadcast_to(np.eye(4)[:3], (len(parts), 3, 4)) if poses is None
+                                else poses_of(poses, "poses"), dtype=float)
+    if maps.shape != (len(parts), 3, 4):
+        raise Error(f"poses: must be one for each of {len(parts)} shapes (got {np.shape(poses)})")
+    return _minkray.compound(list(parts), maps)
+
+
+@public
+def compound_parts(compound):
+    """Shapes and poses of a compound: a list, and an array of shape (N, 3, 4)."""
+    return _minkray.compound_parts(shape_of(compound, "compound"))

@@ -2,7 +2,7 @@
 """Methods of the class `Shape`, which the extension module has."""
 from . import _minkray
 from .calls import Error, Shape, public, shape_of, vectors_of
-from .meshes import mesh
+from .meshes import compound, mesh
 from .shapes import read_shape
 
 
@@ -45,6 +45,8 @@ def reduce(self):
     """For pickle."""
     if self.kind == "mesh":
         return mesh, _minkray.mesh_arrays(self)
+    if self.kind == "compound":
+        return compound, _minkray.compound_parts(self)
     return read_shape, (self.json(),)
 
 
