@@ -175,7 +175,7 @@ ContactManifold contact_manifold(const PartsBody& a, const Affine<double>& pose_
   for (const PartContact& contact : near.contacts()) {
     if (contact.normal.dot(normal) < std::cos(options.tilt)) continue;
     for (ContactPoint point : contact.points) {
-      point.distance = (point.point_b - point.point_a).dot(normal);
+      // Along their own normals points are no nearer than the nearest; projected they may be.
       point.point_b = point.point_a + point.distance * normal;
       least = std::min(least, point.distance);
       points.push_back(point);

@@ -274,6 +274,29 @@ TEST(MeshPairs, rest_on_as_many_points_as_convex_bodies) {
   EXPECT_EQ(contact_manifold(*flat, {}, box, tilted).count, 2);
 }
 
+/// A ball above a valley: projected on one slope's normal, the other slope's nearest points were
+/// 1.3e-4 nearer than the nearest.
+TEST(MeshPairs, have_no_contact_point_nearer_than_the_nearest) {
+  const double slope = 0.008, radius = 0.25, height = 1.25, aside = 0.002;
+  testing::Surface valley;
+  for (const double x : {-2.0, 0.0, 2.0})
+    for (const double y : {-2.0, 2.0}) valley.vertices.emplace_back(x, y, slope * std::abs(x));
+  valley.triangles = {{0, 2, 3}, {0, 3, 1}, {2, 4, 5}, {2, 5, 3}};
+  const MeshPointer mesh = valley.shared();
+  const ContactShape ball{Shape(Sphere{radius})};
+  Affine<double> above;
+  above.translation = {aside, 0.1, height};
+  const double gap = (height - slope * aside) / std::hypot(1, slope) - radius;
+  const ContactManifold contact = contact_manifold(*mesh, {}, ball, above);
+  ASSERT_GE(contact.count, 1);
+  EXPECT_NEAR(contact.points[0].distance, gap, 1e-12);
+  for (int i = 0; i < contact.count; ++i) {
+    const ContactPoint& point = contact.points[static_cast<std::size_t>(i)];
+    EXPECT_GE(point.distance, gap - 1e-12);
+    EXPECT_NEAR((point.point_b - point.point_a - point.distance * contact.normal).norm(), 0, 1e-12);
+  }
+}
+
 TEST(MeshPairs, first_touch_when_a_part_is_first_touched) {
   const MeshPointer ring = testing::torus(12, 8).shared();
   const std::vector<ContactShape> of_ring = parts(*ring);
