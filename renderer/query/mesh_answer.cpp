@@ -68,7 +68,7 @@ void answer_at_mesh(const RayQuery& query, const AnswerOptions& options, Answer&
   const PosedMesh posed(0, query.body.mesh, query.body.pose);
   const Ray<double>& ray = query.ray;
   PartCounts counts;
-  const MeshCast found =
+  const PartCast found =
       cast_ray(posed, ray, std::numeric_limits<double>::infinity(), false, 0, counts);
   add_cast(answer, found.cast);
   add_hit_point(answer, ray, found.cast);
