@@ -185,6 +185,17 @@ TEST(LibraryMesh, in_batches_with_shapes_as_alone) {
   }
 }
 
+TEST(LibraryMesh, touches_along_a_plane_without_a_search_for_each_triangle) {
+  const std::vector<double> heights(81 * 81, 0.0);
+  const double bottom = -1;
+  const mk::Shape ground = mk::height_field(heights, 81, 81, 2, 2, &bottom);
+  const mk::Distance rests =
+      mk::signed_distance(ground, {}, mk::box({0.9, 0.9, 0.5}), mk::translation({0.01, 0.02, 0.5}));
+  EXPECT_EQ(rests.status, mk::touching);
+  EXPECT_LT(rests.upper, 1e-12);
+  EXPECT_LT(rests.supports, 1000);  // about 10,000 triangles are below the box
+}
+
 TEST(LibraryMesh, is_refused_where_a_shape_must_be_convex_and_wrong_ones_are) {
   const mk::Shape box = open_box();
   EXPECT_TRUE(has(error_of([&] { mk::rounded(box, 0.1); }), "must be convex (got a mesh)"));
