@@ -178,6 +178,7 @@ void solve(const SignedDistanceQuery& query, const AnswerOptions& options, Answe
   how.at_most = query.at_most;
   how.only_sign = query.only_sign;
   const SignedDistance result = signed_distance(ContactShape(query.a), ContactShape(query.b), how);
+  answer.signed_distance = result;
   answer.facts.status = name_of(result.status);
   answer.facts.hit = result.status == SignedStatus::overlapping;
   answer.facts.distance = result.value;
