@@ -37,10 +37,16 @@ FlatPart of_disks(const ShapeCore& core, const Vec3<double>& d, double tilt) {
   return {1, {k * d.x(), k * d.y(), rise / length}, length};
 }
 
-FlatPart of_hull(const ShapeCore& core, const Vec3<double>& d, double tilt) {
-  const int best = furthest_of_hull(core, d.x(), d.y(), d.z());
-  const Vec3<double> s(core.x[best], core.y[best], core.z[best]);
-  const double most = s.dot(d) - 2 * tilt * core.ball;
+FlatPart of_hull(const ShapeCore& core, const Vec3<double>& d, double tilt, double height) {
+  const auto point = [&](int i) { return Vec3<double>(core.x[i], core.y[i], core.z[i]); };
+  int first = -1;  // of the part's points
+  Vec3<double> s = Vec3<double>::Zero();
+  if (height == unknown_height) {
+    first = furthest_of_hull(core, d.x(), d.y(), d.z());
+    s = point(first);
+    height = s.dot(d);
+  }
+  const double most = height - 2 * tilt * core.ball;
   constexpr double same = 1e-12;  // points closer than this, relative to the size, count as one
   constexpr double straight = 1e-9;
   FlatPart part;
@@ -48,10 +54,14 @@ FlatPart of_hull(const ShapeCore& core, const Vec3<double>& d, double tilt) {
     std::uint64_t far = far_of_hull(core, d.x(), d.y(), d.z(), most, begin);
     for (; far != 0; far &= far - 1) {
       const int i = begin + std::countr_zero(far);
-      if (i == best) continue;
-      const Vec3<double> to = Vec3<double>(core.x[i], core.y[i], core.z[i]) - s;
+      if (first < 0) {
+        first = i;
+        s = point(i);
+      }
+      if (i == first) continue;
+      const Vec3<double> to = point(i) - s;
       const double length = to.norm();
-      if (length <= same * core.ball || -to.dot(d) > tilt * length) continue;
+      if (length <= same * core.ball || std::abs(to.dot(d)) > tilt * length) continue;
       if (part.dimension == 0) {
         part = {1, to / length, length};
       } else if (part.along.cross(to).norm() > straight * length) {
@@ -62,7 +72,7 @@ FlatPart of_hull(const ShapeCore& core, const Vec3<double>& d, double tilt) {
       }
     }
   }
-  return part;
+  return first < 0 ? of_hull(core, d, tilt, unknown_height) : part;
 }
 
 FlatPart of_other(const ShapeCore& core, const Vec3<double>& d, double tilt) {
@@ -88,7 +98,7 @@ FlatPart of_other(const ShapeCore& core, const Vec3<double>& d, double tilt) {
 
 }  // namespace
 
-FlatPart flat_part(const ShapeCore& core, const Vec3<double>& d, double tilt) {
+FlatPart flat_part(const ShapeCore& core, const Vec3<double>& d, double tilt, double height) {
   switch (core.kind) {
     case CoreKind::point:
     case CoreKind::ellipsoid:
@@ -99,7 +109,7 @@ FlatPart flat_part(const ShapeCore& core, const Vec3<double>& d, double tilt) {
     case CoreKind::box:
       return of_box(core, d, tilt);
     case CoreKind::hull:
-      return of_hull(core, d, tilt);
+      return of_hull(core, d, tilt, height);
     case CoreKind::disks:
       return of_disks(core, d, tilt);
     case CoreKind::other:

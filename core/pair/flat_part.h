@@ -3,6 +3,8 @@
 // bodies touch with edges or faces, there may be many pairs of nearest points.
 #pragma once
 
+#include <limits>
+
 #include "core/pair/core_support.h"
 
 namespace minkray {
@@ -13,9 +15,12 @@ struct FlatPart {
   double length = 0;                           ///< length of the edge
 };
 
+inline constexpr double unknown_height = -std::numeric_limits<double>::infinity();
+
 /// Returns the part of largest dimension over all directions within `tilt` radians of the unit
 /// vector d. For a core known only by its support mapping, estimates the part from support points
-/// in slightly tilted directions.
-FlatPart flat_part(const ShapeCore& core, const Vec3<double>& d, double tilt);
+/// in slightly tilted directions. `height`, if known, is that of the furthest point along d.
+FlatPart flat_part(const ShapeCore& core, const Vec3<double>& d, double tilt,
+                   double height = unknown_height);
 
 }  // namespace minkray

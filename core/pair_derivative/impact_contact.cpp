@@ -39,6 +39,15 @@ bool settle_apart(const ContactShape& a, const Affine<double>& pose_a, const Con
   return true;
 }
 
+/// True if the search estimated the normal's error, and the contact is not so oblique that the
+/// error matters.
+bool has_small_error(const RigidMotion& motion_a, const RigidMotion& motion_b,
+                     const Impact& found) {
+  constexpr double small = 1e-7;
+  const Vec3<double> velocity = motion_b.velocity - motion_a.velocity;
+  return found.normal_error * velocity.norm() <= small * std::abs(found.normal.dot(velocity));
+}
+
 /// True for bodies of known kinds that do not turn, if both are polytopes or the times' bounds are
 /// close: the error of the normal is the square root of their gap.
 bool is_accurate(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
@@ -57,7 +66,8 @@ bool is_accurate(const ContactShape& a, const RigidMotion& motion_a, const Conta
 
 void settle(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
             const RigidMotion& motion_b, Impact& found) {
-  if (is_accurate(a, motion_a, b, motion_b, found)) return;
+  if (has_small_error(motion_a, motion_b, found) || is_accurate(a, motion_a, b, motion_b, found))
+    return;
   const Affine<double> pose_a = motion_a.at(found.t_lo), pose_b = motion_b.at(found.t_lo);
   const Vec3<double> middle = middle_in_world(a, pose_a);
   if (is_curved(a.core()) || is_curved(b.core())) {

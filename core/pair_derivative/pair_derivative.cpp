@@ -44,18 +44,24 @@ Vec3<double> in_core(const ContactShape& shape, const Mat3<double>& linear, cons
   return shape.is_turned() ? Vec3<double>(shape.turn().transpose() * own) : own;
 }
 
+/// Heights along the normal of the cores' contact points above their middles, each outwards.
+struct ContactHeights {
+  double a = unknown_height, b = unknown_height;
+};
+
 /// Returns where two bodies with flat parts may touch if moved together along the normal.
 ContactRegion touching_region(const ContactShape& a, const Mat3<double>& linear_a,
                               const ContactShape& b, const Mat3<double>& linear_b,
-                              const Vec3<double>& normal, double interval, double length) {
+                              const Vec3<double>& normal, double interval, double length,
+                              const ContactHeights& heights = {}) {
   const double tilt = tilt_of(interval, length);
   FlatPart of_a, of_b;
   const auto a_is_flat = [&] {
-    of_a = flat_part(a.core(), in_core(a, linear_a, normal), tilt);
+    of_a = flat_part(a.core(), in_core(a, linear_a, normal), tilt, heights.a);
     return of_a.dimension > 0;
   };
   const auto b_is_flat = [&] {
-    of_b = flat_part(b.core(), in_core(b, linear_b, -normal), tilt);
+    of_b = flat_part(b.core(), in_core(b, linear_b, -normal), tilt, heights.b);
     return of_b.dimension > 0;
   };
   const bool b_first = is_slow(a.core()) && !is_slow(b.core());
@@ -76,9 +82,9 @@ ContactRegion touching_region(const ContactShape& a, const Mat3<double>& linear_
 /// True if any two bodies may touch in more than a point.
 bool have_many_points(const ContactShape& a, const Mat3<double>& linear_a, const ContactShape& b,
                       const Mat3<double>& linear_b, const Vec3<double>& normal, double interval,
-                      double length) {
+                      double length, const ContactHeights& heights = {}) {
   return has_flat_parts(a.core()) && has_flat_parts(b.core()) &&
-         touching_region(a, linear_a, b, linear_b, normal, interval, length).dimension > 0;
+         touching_region(a, linear_a, b, linear_b, normal, interval, length, heights).dimension > 0;
 }
 
 /// Largest angle between the normal and other directions of least depth; `not_known` if they may be
@@ -158,6 +164,11 @@ struct BodyAtContact {
     if (!(angle > 0)) return;
     turn = Eigen::AngleAxis<double>(angle, rotation / angle).toRotationMatrix();
     linear = turn * motion.pose.linear;
+  }
+
+  /// Height of the contact point above the core's middle along the outward normal.
+  double height(const ContactShape& shape, const Vec3<double>& normal) const {
+    return normal.dot(arm - linear * shape.middle()) - shape.core().radius;
   }
 
   /// `weight` is the derivative with respect to the contact point. A turn of the body at time 0
@@ -278,10 +289,11 @@ PairDerivative of_hit(const ContactShape& a, const RigidMotion& motion_a, const 
   constexpr double grazing = 1e-6;  // of the points' speeds: less is no approach to speak of
   constexpr double known = 1e-12;   // of the sizes: what the normal of a contact is known to
   const double size = a.ball_radius() + b.ball_radius();
+  const ContactHeights heights{of_a.height(a, found.normal), of_b.height(b, -found.normal)};
   return {of_a.derivative(-found.normal / closing), of_b.derivative(found.normal / closing),
           !(closing > grazing * (of_a.velocity.norm() + of_b.velocity.norm())) ||
               have_many_points(a, of_a.linear, b, of_b.linear, found.normal, known * known * size,
-                               size)};
+                               size, heights)};
 }
 
 }  // namespace

@@ -44,6 +44,8 @@ struct Impact {
   /// Distance at t_lo. Infinite if it is unknown, as for a miss without `points_of_misses`; point_a
   /// and point_b are then not set.
   double distance = std::numeric_limits<double>::infinity();
+  /// Estimated error of the normal of a hit, in radians; infinite if the search has none.
+  double normal_error = std::numeric_limits<double>::infinity();
   int steps = 0;  ///< number of distance queries
 };
 
@@ -55,6 +57,9 @@ struct ImpactOptions {
   int max_steps = 2000;  ///< maximum number of distance queries; beyond it the status is undecided
   /// True to compute the nearest points at t_max for a miss. The normal is always set.
   bool points_of_misses = true;
+  /// Also makes the normal of a hit as accurate as derivatives need, where this costs little. The
+  /// times are the same.
+  bool is_for_derivatives = false;
 };
 
 /// Finds the first contact of A and B at times from 0 to t_max. If the bodies touch at time 0

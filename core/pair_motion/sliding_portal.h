@@ -46,8 +46,9 @@ class SlidingPortal {
       const Vec3<double> growth = (query_.radius * inverse) * nd, y = found.c - growth;
       const double height = nd.dot(y);
       if (query_.judge(nd, length, height)) return true;
-      if (query_.has_met()) return query_.end_hit();
-      if (height < highest - query_.size) {  // starts again with shorter steps
+      const bool has_met = query_.has_met();
+      if (has_met && !query_.is_for_derivatives) return query_.end_hit();
+      if (!has_met && height < highest - query_.size) {  // starts again with shorter steps
         if (if_diverging > most_damping) return false;
         nd = best;
         count_ = 0;
@@ -61,11 +62,11 @@ class SlidingPortal {
         best = nd;
       }
       const Vec3<double> of_b = pair.to_b(-nd);
-      if (!is_end_tried_ && is_along_an_end(nd, of_b, flat)) {
+      if (!has_met && !is_end_tried_ && is_along_an_end(nd, of_b, flat)) {
         is_end_tried_ = true;
         if (meets_end(nd, of_b)) return true;
       }
-      if (is_along_an_end(nd, of_b, flattest)) return false;
+      if (is_along_an_end(nd, of_b, flattest)) return has_met && query_.end_hit();
       if (count_ == 0) append(found.feature_a, found.feature_b, 1);
       AcrossMotion S;
       double p = 0, q = 0;
@@ -88,8 +89,9 @@ class SlidingPortal {
       S.xx += of_radius;
       S.yy += of_radius;
       S.add(-of_radius, query_.e0.dot(nd) * inverse, query_.e1.dot(nd) * inverse);
+      if (has_met) return end_hit(S, is_known, nd);
       if (are_level() && p * p + q * q <= stationary * stationary * query_.size * query_.size) {
-        if (settle(nd, is_known)) return true;
+        if (settle(nd, is_known)) return end_hit(S, is_known, nd);
         if (is_known && count_ < 3 && query_.near > 0) return false;
       }
       if (!is_known) {
@@ -231,6 +233,37 @@ class SlidingPortal {
     level(m0, m1);
     nd += m0 * query_.e0 + m1 * query_.e1;
     return kept > 0;
+  }
+
+  /// Ends the search with a hit at the normal nd. For derivatives, takes another step first, exact
+  /// for the same features: its error is about the square of its length.
+  bool end_hit(const AcrossMotion& S, bool is_known, const Vec3<double>& nd) {
+    if (!query_.is_for_derivatives || !is_known) return query_.end_hit();
+    double m0 = 0, m1 = 0, curvature = query_.size;  // the least that matters
+    if (count_ == 1) {
+      const double determinant = S.xx * S.yy - S.xy * S.xy;
+      curvature = determinant / (S.xx + S.yy);
+      m0 = (S.yy * p_[0] - S.xy * q_[0]) / determinant;
+      m1 = (S.xx * q_[0] - S.xy * p_[0]) / determinant;
+    } else if (count_ == 2) {
+      // Along the line between the points, both have to give the same bound.
+      const double p1 = p_[1] - p_[0], q1 = q_[1] - q_[0], length = std::sqrt(p1 * p1 + q1 * q1);
+      const double x = p1 / length, y = q1 / length, along = (t_[0] - t_[1]) / length;
+      curvature = S.xx * y * y - 2 * S.xy * x * y + S.yy * x * x;
+      const double coupled = (S.yy - S.xx) * x * y + S.xy * (x * x - y * y);
+      const double across = (x * q_[0] - y * p_[0] - coupled * along) / curvature;
+      m0 = along * x - across * y;
+      m1 = along * y + across * x;
+    } else {
+      level(m0, m1);
+    }
+    constexpr double of_square = 30, of_rounding = 1e-12;
+    const double length = nd.norm(), turn = std::sqrt(m0 * m0 + m1 * m1) / length;
+    const double error =
+        of_square * turn * turn + query_.rounding / (curvature * length) + of_rounding;
+    if (error <= query_.small_axis_error && curvature > 0)
+      query_.take_axis(nd + m0 * query_.e0 + m1 * query_.e1, error);
+    return query_.end_hit();
   }
 
   /// Corrects the step m so that all features give the same bound. If curvatures are small, their

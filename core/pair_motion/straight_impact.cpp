@@ -64,6 +64,7 @@ SweptStatus straight_impact(const ContactShape& a, const RigidMotion& motion_a,
       return SweptStatus::open;
     const double last = std::max(swept.t_lo, swept.t_hi);
     result.status = ImpactStatus::hit;
+    result.normal_error = swept.axis_error;
     result.t_lo = sum_or_less(begin, swept.t_lo);
     result.t_hi = sum_or_more(begin, last);
     // The point belongs to both bodies at t_hi. At t_lo, the second body is behind it by `back`.
@@ -77,13 +78,14 @@ SweptStatus straight_impact(const ContactShape& a, const RigidMotion& motion_a,
   if (second.core().kind == CoreKind::point) {  // balls, which have no frame
     const Mat3<double> no_turn = Mat3<double>::Identity();
     const CorePair pair{first.core(), second.core(), no_turn, between.x, between.loss};
-    return finish(swept_time(pair, velocity, end, touching, memory),
+    return finish(swept_time(pair, velocity, end, touching, memory, options.is_for_derivatives),
                   [](const Vec3<double>& v) -> const Vec3<double>& { return v; });
   }
   const Mat3<double> frame = turn_in_world(first, of_first.pose);
   const CorePair pair =
       pair_of(first, frame, second, turn_in_world(second, of_second.pose), between);
-  return finish(swept_time(pair, frame.transpose() * velocity, end, touching, memory),
+  return finish(swept_time(pair, frame.transpose() * velocity, end, touching, memory,
+                           options.is_for_derivatives),
                 [&](const Vec3<double>& v) -> Vec3<double> { return frame * v; });
 }
 

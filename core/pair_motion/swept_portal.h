@@ -6,6 +6,8 @@
 // Curved pairs use sliding_portal.h: round ones at once, others after a few iterations.
 #pragma once
 
+#include <algorithm>
+
 #include "core/pair_motion/sliding_portal.h"
 
 namespace minkray {
@@ -16,8 +18,9 @@ class SweptPortal {
   /// B moves by t * velocity in A's frame, for 0 <= t <= t_max. Miss: a plane separates the cores
   /// by more than `near` at all times. Hit: between the two bounds of the time, B moves at most
   /// `near`.
-  SweptPortal(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near)
-      : query_(pair, velocity, t_max, near) {
+  SweptPortal(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near,
+              bool is_for_derivatives)
+      : query_(pair, velocity, t_max, near, is_for_derivatives) {
     can_slide_ = pair.a.kind != CoreKind::other && pair.b.kind != CoreKind::other &&
                  (slides(pair.a.kind) || slides(pair.b.kind) || query_.radius > 0);
   }
@@ -52,6 +55,12 @@ class SweptPortal {
   /// True for two cylinders or cones, which have few corners.
   bool have_rims() const {
     return query_.pair.a.kind == CoreKind::disks && query_.pair.b.kind == CoreKind::disks;
+  }
+
+  /// True if C is a polytope: the portal is then a part of a face.
+  bool is_polytope() const {
+    const auto is_flat = [](CoreKind kind) { return kind != CoreKind::other && !slides(kind); };
+    return is_flat(query_.pair.a.kind) && is_flat(query_.pair.b.kind) && !(query_.radius > 0);
   }
 
   /// Normal where the motion meets a ball around C's middle.
@@ -118,7 +127,7 @@ class SweptPortal {
     for (int turn = 0; turn < most_turns; ++turn) {
       const double area = side(0, 1) + side(1, 2) + side(2, 0);
       query_.pierce(portal_[0], portal_[1], portal_[2]);
-      if (query_.has_met() && query_.end_hit()) return;
+      if (query_.has_met()) return end_hit();
       Vec3<double> n = (portal_[1].y - portal_[0].y).cross(portal_[2].y - portal_[0].y);
       if (n.dot(query_.along) > 0) n = -n;
       if (can_slide_ && turn >= turns_plain && n.dot(query_.along) < 0) {
@@ -132,7 +141,7 @@ class SweptPortal {
       if (!(n.squaredNorm() > 0)) return;
       const SweptPoint w = query_.support(n);
       if (query_.judge(n, w)) return;
-      if (query_.has_met() && query_.end_hit()) return;
+      if (query_.has_met()) return end_hit();
       // The new point divides the triangle into three; this keeps the one that contains the origin.
       const double sign = area < 0 ? -1 : 1, at0 = sign * cross(portal_[0], w),
                    at1 = sign * cross(portal_[1], w), at2 = sign * cross(portal_[2], w);
@@ -145,6 +154,104 @@ class SweptPortal {
       else
         return;
     }
+  }
+
+  /// Ends the search with a hit on the portal.
+  void end_hit() {
+    query_.end_hit();
+    if (query_.is_for_derivatives && !is_polytope()) sharpen();
+  }
+
+  /// Estimates a better axis from the portal, and its error. With the weights w_i of the contact,
+  /// the gap between the bounds limits the height of the true plane above the point i to gap / w_i:
+  /// the plane is known along long edges.
+  void sharpen() {
+    const double c01 = side(0, 1), c12 = side(1, 2), c20 = side(2, 0), area = c01 + c12 + c20;
+    const double weights[3] = {c12 / area, c20 / area, c01 / area};
+    if (!(weights[0] > 0 && weights[1] > 0 && weights[2] > 0)) return;
+    double height = 0, longest = 0;
+    for (int i = 0; i < 3; ++i) height -= weights[i] * portal_[i].h;
+    const double gap = query_.approach_of_axis() * (height / query_.speed - query_.result.t_lo) +
+                       2 * query_.rounding;
+    Vec3<double> curved = Vec3<double>::Zero();
+    // Largest errors, in radians, of what may be a face or an edge: others are too short.
+    constexpr double of_plausible_face = 1e-5, of_plausible_edge = 1e-6;
+    int flattest = -1;
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3;
+      const double length = edge(i).norm();
+      longest = std::max(longest, length);
+      const double tilt = gap / (std::min(weights[i], weights[j]) * length);
+      if (tilt <= of_plausible_edge && (flattest < 0 || bend(i) < bend(flattest))) flattest = i;
+      curved += weights[i] * normal(i);
+    }
+    Vec3<double> n = edge(0).cross(edge(1));
+    if (n.dot(query_.along) > 0) n = -n;
+    double of_face = gap * longest / (std::min({weights[0], weights[1], weights[2]}) * n.norm());
+    // The plane itself gives a smaller gap.
+    if (of_face > query_.small_axis_error && of_face <= of_plausible_face)
+      of_face *= (n.dot(portal_[0].y - query_.support(n).y) / n.norm() + 2 * query_.rounding) / gap;
+    if (of_face <= query_.small_axis_error)
+      query_.take_axis(n, of_face);
+    else if (flattest < 0 || !sharpen_on_edge(flattest, curved))
+      sharpen_curved(curved);
+  }
+
+  Vec3<double> edge(int i) const { return portal_[(i + 1) % 3].y - portal_[i].y; }
+  /// Normal along which the point is furthest.
+  Vec3<double> normal(int i) const { return portal_[i].d / portal_[i].d.norm(); }
+  double bend(int i) const { return (normal((i + 1) % 3) - normal(i)).norm(); }
+
+  /// For a contact with an edge of C, curved across: n interpolates normals with the weights, which
+  /// is accurate if the curvature is the same all along the edge. Then the edge whose normal is n,
+  /// between the support points along two slightly turned normals, meets the line of motion.
+  /// Returns false if these points are not the ends of an edge.
+  bool sharpen_on_edge(int i, Vec3<double> n) {
+    constexpr double turn = 1e-9;  // bounds the error along the edge
+    const Vec3<double> all = edge(i), along = all / all.norm();
+    n -= along.dot(n) * along;
+    const SweptPoint one = query_.support(n + turn * along),
+                     other = query_.support(n - turn * along);
+    const auto length = [](double p, double q) { return std::sqrt(p * p + q * q); };
+    if (!((other.y - one.y).norm() > 0.5 * all.norm())) return false;
+    const double off = std::abs(cross(one, other)) / length(other.p - one.p, other.q - one.q);
+    const int j = (i + 1) % 3, k = (i + 2) % 3, side = bend(j) > bend(k) ? j : k;
+    const double p = query_.e0.dot(along), q = query_.e1.dot(along);
+    const Vec3<double> across = edge(side);
+    const double width =
+        std::abs(query_.e0.dot(across) * q - query_.e1.dot(across) * p) / length(p, q);
+    if (!is_flat(width, bend(side)))
+      take_estimate(n, (off + query_.rounding) * bend(side) / width, turn);
+    return true;
+  }
+
+  /// For a curved surface, n interpolates normals as the contact interpolates their points. A step
+  /// of the secant method for the normal whose support point is on the line of motion estimates the
+  /// error.
+  void sharpen_curved(const Vec3<double>& n) {
+    const SweptPoint there = query_.support(n);
+    const double p1 = portal_[1].p - portal_[0].p, q1 = portal_[1].q - portal_[0].q,
+                 p2 = portal_[2].p - portal_[0].p, q2 = portal_[2].q - portal_[0].q;
+    const double size = std::max(std::abs(p1) + std::abs(q1), std::abs(p2) + std::abs(q2)),
+                 off = std::abs(there.p) + std::abs(there.q), area = std::abs(p1 * q2 - q1 * p2);
+    const Vec3<double> one = normal(1) - normal(0), other = normal(2) - normal(0);
+    constexpr double near = 1e-3;  // further away, relative to the portal, the surface has a corner
+    if (!(off <= near * size) || is_flat(size, std::max(one.norm(), other.norm()))) return;
+    const Vec3<double> step =
+        (there.p * q2 - there.q * p2) / area * one + (p1 * there.q - q1 * there.p) / area * other;
+    take_estimate(n, step.norm() + query_.rounding * size * (one.norm() + other.norm()) / area, 0);
+  }
+
+  /// True if the surface bends so little that it may be a face: normals of a face's corners say
+  /// nothing about its normal.
+  bool is_flat(double width, double bend) const {
+    constexpr double most = 1e3;  // radius of curvature in sizes
+    return !(width <= most * query_.size * bend);
+  }
+  void take_estimate(const Vec3<double>& n, double estimate, double proven) {
+    constexpr double doubt = 10;  // the curvature may differ from that of the portal
+    const double error = doubt * estimate + proven;
+    if (error <= query_.small_axis_error) query_.take_axis(n, error);
   }
 
   SweptQuery<A, B> query_;

@@ -24,6 +24,9 @@ struct SweptTime {
   double t_hi = std::numeric_limits<double>::infinity();
   Vec3<double> axis = Vec3<double>::Zero();  ///< normal of the plane that proves t_lo or the miss
   Vec3<double> a = Vec3<double>::Zero();     ///< a point of A that is also a point of B at t_hi
+  /// Estimated error of the axis of a hit, in radians. Infinite if it was not requested, or is
+  /// larger than derivatives allow: it is then about the square root of the bounds' gap.
+  double axis_error = std::numeric_limits<double>::infinity();
   int supports = 0;
 };
 
@@ -33,6 +36,7 @@ struct SweptPoint {
   Vec3<double> y, a;
   double p, q, h;
   int feature_a, feature_b;
+  Vec3<double> d = {};  ///< of a support point: its direction, of any length
 };
 
 inline double cross(const SweptPoint& a, const SweptPoint& b) {
@@ -57,6 +61,7 @@ struct SweptQuery {
   /// Latest time of interest; largest distance that B moves between the two bounds of a hit (see
   /// have_met).
   double t_max, near;
+  bool is_for_derivatives;  ///< also computes an axis that derivatives can use
   double radius = pair.a.radius + pair.b.radius;
   double size = pair.size() + radius;
   double speed = velocity.norm();
@@ -65,12 +70,13 @@ struct SweptQuery {
   double rounding = pair.rounding();
   SweptTime result = {};
 
-  SweptQuery(const CorePair& of, const Vec3<double>& v, double most, double nearness)
-      : pair(of), velocity(v), t_max(most), near(nearness) {}
+  SweptQuery(const CorePair& of, const Vec3<double>& v, double most, double nearness,
+             bool for_derivatives)
+      : pair(of), velocity(v), t_max(most), near(nearness), is_for_derivatives(for_derivatives) {}
 
   /// Makes a point from y = b - a and a.
   SweptPoint in_shadow(const Vec3<double>& y, const Vec3<double>& a, int of_a, int of_b) const {
-    return {y, a, e0.dot(y), e1.dot(y), along.dot(y), of_a, of_b};
+    return {y, a, e0.dot(y), e1.dot(y), along.dot(y), of_a, of_b, {}};
   }
   /// Returns the point of the cores' difference with the least y.d.
   DifferencePoint nearest(const Vec3<double>& d) {
@@ -80,7 +86,9 @@ struct SweptQuery {
   /// Returns the point of C with the least y.d.
   SweptPoint support(const Vec3<double>& d) {
     const DifferencePoint w = nearest(d);
-    return grown(w.c, w.a, d, w.feature_a, w.feature_b);
+    SweptPoint point = grown(w.c, w.a, d, w.feature_a, w.feature_b);
+    point.d = d;
+    return point;
   }
   /// Moves a point of the cores' difference to the surface of C, by both radii against d.
   SweptPoint grown(const Vec3<double>& c, const Vec3<double>& a, const Vec3<double>& d, int of_a,
@@ -105,6 +113,15 @@ struct SweptQuery {
     result.status = status;
     result.axis = unit<double>(axis);
   }
+  /// Error of an axis, in radians, below which derivatives need no better one.
+  static constexpr double small_axis_error = 1e-8;
+
+  /// Takes a better axis of a hit.
+  void take_axis(const Vec3<double>& n, double error) {
+    result.axis = unit<double>(n);
+    result.axis_error = error;
+  }
+
   /// Ends the search with a hit. Returns true, so that callers can return it.
   bool end_hit() {
     result.status = SweptStatus::hit;
@@ -183,10 +200,12 @@ struct SweptQuery {
     return true;
   }
 
+  double approach_of_axis() const { return -result.axis.dot(velocity); }
+
   /// True if the bounds of the time are near enough to end the search.
   bool has_met() const {
     return have_met(result.t_hi - result.t_lo, speed, near, rounding,
-                    [&] { return -result.axis.dot(velocity); });
+                    [&] { return approach_of_axis(); });
   }
 };
 

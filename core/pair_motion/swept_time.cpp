@@ -48,7 +48,7 @@ SweptTime of_balls(const CorePair& pair, const Vec3<double>& velocity, double t_
 
 /// Requires speeds whose squares are normal numbers.
 SweptTime of_ordinary_speeds(const CorePair& pair, const Vec3<double>& velocity, double t_max,
-                             double near, PairMemory* memory) {
+                             double near, PairMemory* memory, bool is_for_derivatives) {
   if (pair.a.kind == CoreKind::point && pair.b.kind == CoreKind::point)
     return of_balls(pair, velocity, t_max, near);
   SweptTime swept;
@@ -59,7 +59,7 @@ SweptTime of_ordinary_speeds(const CorePair& pair, const Vec3<double>& velocity,
     swept = swept_boxes(pair, velocity, t_max, near);
   if (swept.status != SweptStatus::open) return swept;
   swept = with_core_kinds(pair, [&]<CoreKind A, CoreKind B>() {
-    return SweptPortal<A, B>(pair, velocity, t_max, near).run(memory);
+    return SweptPortal<A, B>(pair, velocity, t_max, near, is_for_derivatives).run(memory);
   });
   if (memory && !swept.axis.isZero(0)) memory->axis = swept.axis;
   return swept;
@@ -74,14 +74,14 @@ double rescaled(double t, int power, double outward) {
 }  // namespace
 
 SweptTime swept_time(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near,
-                     PairMemory* memory) {
+                     PairMemory* memory, bool is_for_derivatives) {
   const double size = pair.size() + pair.a.radius + pair.b.radius;
   if (!are_searchable(size, pair.x.cwiseAbs().maxCoeff())) return {};
   // Beyond these limits, squares of speeds approach the range of double, 2^-1074 to 2^1024.
   constexpr double slowest = 0x1p-400, fastest = 0x1p400;
   const double most = velocity.cwiseAbs().maxCoeff();
   if (most > slowest && most < fastest)
-    return of_ordinary_speeds(pair, velocity, t_max, near, memory);
+    return of_ordinary_speeds(pair, velocity, t_max, near, memory, is_for_derivatives);
   if (!(most > 0) || !velocity.allFinite()) return {};
   // The unit of time is a power of two, so that speeds are not rounded.
   constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -89,8 +89,8 @@ SweptTime swept_time(const CorePair& pair, const Vec3<double>& velocity, double 
   std::frexp(most, &power);
   const Vec3<double> slower =
       velocity.unaryExpr([power](double speed) { return std::ldexp(speed, -power); });
-  SweptTime swept =
-      of_ordinary_speeds(pair, slower, rescaled(t_max, power, infinity), near, memory);
+  SweptTime swept = of_ordinary_speeds(pair, slower, rescaled(t_max, power, infinity), near, memory,
+                                       is_for_derivatives);
   swept.t_lo = rescaled(swept.t_lo, -power, -infinity);
   swept.t_hi = rescaled(swept.t_hi, -power, infinity);
   const bool is_late = swept.status == SweptStatus::hit && !std::isfinite(swept.t_hi);

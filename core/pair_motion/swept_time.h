@@ -10,6 +10,6 @@ namespace minkray {
 /// Returns the time of impact. For the parameters see SweptPortal (swept_portal.h). `memory` may be
 /// null.
 SweptTime swept_time(const CorePair& pair, const Vec3<double>& velocity, double t_max, double near,
-                     PairMemory* memory);
+                     PairMemory* memory, bool is_for_derivatives = false);
 
 }  // namespace minkray

@@ -138,8 +138,10 @@ std::vector<NearPair> near_pairs(const ContactWorld& world, const NearPairsOptio
 }
 
 std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& world,
-                                     std::size_t count, double at_most) {
+                                     std::size_t count, double at_most, double* others) {
   std::vector<NearPair> best;
+  double least_of_others = std::numeric_limits<double>::infinity();
+  if (others) *others = least_of_others;
   if (count == 0 || world.bodies().empty()) return best;
   const auto value_of = [](const NearPair& pair) {
     return pair.distance.is_unknown() ? std::numeric_limits<double>::infinity()
@@ -164,7 +166,7 @@ std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& 
     const bool is_full = best.size() == count;
     if (top.distance > at_most) break;
     // Overlapping boxes give no bound of the depth of the bodies' overlap.
-    if (is_full && top.distance > std::max(value_of(best.back()), 0.0)) break;
+    if (is_full && top.distance > std::max(best.back().distance.upper, 0.0)) break;
     if ((top.what & BvhNode::leaf) == 0) {
       const BvhNode& node = world.hierarchy().nodes[top.what];
       for (int i = 0; i < bvh_width && node.children[i] != BvhNode::none; ++i)
@@ -175,14 +177,16 @@ std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& 
     const ContactBody& body = world.bodies()[index];
     if (!to.is_pair_with(body)) continue;
     SignedDistanceOptions how;
-    how.at_most = is_full ? std::min(at_most, value_of(best.back())) : at_most;
+    how.at_most = is_full ? std::min(at_most, best.back().distance.upper) : at_most;
     const NearPair pair{0, index,
                         signed_distance(to.parts(), to.pose, body.parts(), body.pose, how)};
     if (pair.distance.lower > at_most) continue;
-    if (is_full && !is_nearer(pair, best.back())) continue;
     best.insert(std::ranges::upper_bound(best, pair, is_nearer), pair);
-    if (best.size() > count) best.pop_back();
+    if (best.size() <= count) continue;
+    least_of_others = std::min(least_of_others, best.back().distance.lower);
+    best.pop_back();
   }
+  if (others) *others = least_of_others;
   return best;
 }
 

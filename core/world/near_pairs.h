@@ -82,9 +82,12 @@ std::vector<NearPair> near_pairs(const ContactWorld& first, const ContactWorld& 
 /// Returns up to `count` bodies nearest to `to`, the nearest first. In each result, a is 0. Skips
 /// bodies that cannot form a pair due to their masks. Bodies whose distance is unknown
 /// (SignedDistance::is_unknown()) come last, and only if there are fewer than `count` others. Omits
-/// bodies proven to be further away than `at_most`.
+/// bodies proven to be further away than `at_most`. Writes the least lower bound of the other
+/// bodies' distances to `others`, if not null, unless they are proven to be further away than all
+/// results: then infinity.
 std::vector<NearPair> nearest_bodies(const ContactBody& to, const ContactWorld& world,
                                      std::size_t count,
-                                     double at_most = std::numeric_limits<double>::infinity());
+                                     double at_most = std::numeric_limits<double>::infinity(),
+                                     double* others = nullptr);
 
 }  // namespace minkray

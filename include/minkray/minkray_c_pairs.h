@@ -169,10 +169,10 @@ MINKRAY_API int minkray_scene_allow(minkray_scene scene, uint32_t object_a, uint
 MINKRAY_API int minkray_scene_allow_from_srdf(minkray_scene scene, uint32_t group,
                                               const char* file);
 
-/* Two objects and their distance. `is_ridge` is that of this pair, even if another object is as
- * near or met at the same time. `jac_a` and `jac_b` are the derivatives with respect to a twist of
- * each about the origin of its frame, zero unless requested, NaN if there is no object; see
- * minkray_distance_arrays. */
+/* Two objects and their distance. `is_ridge` is also 1 if another object may be as near, but for
+ * minkray_scene_distances, where it is that of this pair. `jac_a` and `jac_b` are the derivatives
+ * with respect to a twist of each about the origin of its frame, zero unless requested, NaN if
+ * there is no object; see minkray_distance_arrays. */
 typedef struct minkray_scene_pair {
   minkray_distance distance;
   double jac_a[6];
@@ -234,7 +234,7 @@ typedef struct minkray_scene_impact {
   minkray_impact impact; /* no contact before t_lo; contact at t_hi */
   double jac[6];         /* derivative of the time with respect to a twist at time 0 */
   uint32_t object;       /* MINKRAY_NO_OBJECT without contact */
-  int32_t is_ridge;
+  int32_t is_ridge;      /* also 1 if another object may be touched at the same time */
 } minkray_scene_impact;
 
 /* Casts shapes through the scene, at times from 0 to t_max (one number, or one per shape). Options

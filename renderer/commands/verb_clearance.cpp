@@ -28,7 +28,7 @@ namespace {
 struct ClearanceVerbOptions {
   CommandFiles* files = nullptr;
   std::string robot, steps, sweep;
-  std::vector<std::string> obstacles;
+  std::vector<std::string> others, obstacles;
   AllowedLinks allowed;
   ImportOptions import;
   ClearanceOptions clearance;
@@ -106,11 +106,12 @@ void clearance(ClearanceVerbOptions& options, ExitCode& exit_code) {
   throw_if_any(mistakes);
   std::vector<ClearanceBody> bodies = bodies_of(*model, options.import.geometry);
   if (bodies.empty()) warn_of_no_shapes(options.robot);
-  for (const std::string& file : options.obstacles) {
-    const Imported obstacle = import_scene(file);
-    options.files->read(obstacle.files);
-    for (ClearanceBody& body : bodies_of(obstacle.scene)) bodies.push_back(body);
-  }
+  for (const std::vector<std::string>& files : {options.others, options.obstacles})
+    for (const std::string& file : files) {
+      const Imported obstacle = import_scene(file);
+      options.files->read(obstacle.files);
+      for (ClearanceBody& body : bodies_of(obstacle.scene)) bodies.push_back(body);
+    }
   const std::vector<BodyPair> pairs = pairs_of(bodies, *model, allowed, !options.only_obstacles);
 
   const JointPath path(*model, rows);
@@ -141,6 +142,7 @@ void add_clearance(Parser& parser, ExitCode& exit_code) {
   verb.add_option("robot", options->robot, "Robot file: " + foreign_formats())
       .required()
       .reads_file();
+  verb.add_option("others", options->others, "Obstacles, as by --obstacle").reads_file();
   verb.add_option("--path", options->import.joint_rows,
                   "Joint path (CSV): a row of joint names, then rows of values\n"
                   "Joints move linearly between rows\n"

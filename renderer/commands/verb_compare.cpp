@@ -18,6 +18,7 @@ void add_compare(Parser& parser, ExitCode& exit_code) {
   image.seed = "1";
   image.files = &verb.files();
   add_scene_option(verb, image.scene);
+  add_other_files(verb, image.import);
   add_import_options(verb, image.import);
   verb.add_option("--rays", options->rays,
                   "Rays per object; default: 100000, or fewer above 200 objects")

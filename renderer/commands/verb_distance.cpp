@@ -49,8 +49,7 @@ struct DistanceVerbOptions {
 
   /// True if an option is given that does not apply to two shapes.
   bool is_of_table() const {
-    return within != no_limit || only_obstacles || !output.empty() || allowed.any() ||
-           is_of_robot();
+    return within != no_limit || only_obstacles || allowed.any() || is_of_robot();
   }
   bool is_of_robot() const {
     ImportOptions others = import;
@@ -76,22 +75,12 @@ DistanceFile kind_of_file(const std::string& file) {
   return is_scene ? DistanceFile::scene : DistanceFile::shape;
 }
 
-void distance_of_shapes(const DistanceVerbOptions& options) {
-  if (options.is_of_table())
-    throw WrongUsage("distance: for two shapes only --tolerance, --at-most and --only-sign apply");
-  SignedDistanceQuery query;
-  query.a = shape_in(options.files[0], options.command_files);
-  query.b = shape_in(options.files[1], options.command_files);
-  query.at_most = options.at_most;
-  query.only_sign = options.only_sign;
-  AnswerOptions how;
-  how.tolerance = options.tolerance;
-  std::cout << answer({{}, query, {}}, how).json.dump() << '\n';
+std::string shape_name(const std::string& file) {
+  return std::filesystem::path(file).stem().string();
 }
 
 PosedBodies body_of_shape(const std::string& file, CommandFiles& files) {
-  ClearanceBody body{std::filesystem::path(file).stem().string(), "", -1,
-                     ContactShape(shape_in(file, &files))};
+  ClearanceBody body{shape_name(file), "", -1, ContactShape(shape_in(file, &files))};
   return {{std::move(body)}, {Affine<double>()}, {}};
 }
 
@@ -191,10 +180,12 @@ std::string table_as_csv(const DistanceTable& table) {
          << name_of(found.status) << ',';
     if (is_known) text << found.value;
     text << ',' << found.lower << ',' << found.upper;
+    // A lower bound alone (--at-most) has no points.
+    const bool has_points = std::isfinite(found.upper);
     for (const Vec3<double>* vector : {&found.point_a, &found.point_b, &found.normal})
       for (int axis = 0; axis < 3; ++axis) {
         text << ',';
-        if (is_known) text << (*vector)[axis];
+        if (has_points) text << (*vector)[axis];
       }
     text << '\n';
   }
@@ -251,6 +242,24 @@ std::string table_as_text(const DistanceTable& table, double within) {
   return aligned(rows);
 }
 
+void distance_of_shapes(const DistanceVerbOptions& options) {
+  if (options.is_of_table())
+    throw WrongUsage(
+        "distance: for two shapes only --tolerance, --at-most, --only-sign, --json and -o apply");
+  SignedDistanceQuery query{shape_in(options.files[0], options.command_files),
+                            shape_in(options.files[1], options.command_files)};
+  query.at_most = options.at_most;
+  query.only_sign = options.only_sign;
+  AnswerOptions how;
+  how.tolerance = options.tolerance;
+  const Answer found = answer({{}, query, {}}, how);
+  if (!options.output.empty())
+    write_file(options.output,
+               table_as_csv({{shape_name(options.files[0]), shape_name(options.files[1])},
+                             {{0, 1, *found.signed_distance}}}));
+  if (options.json || options.output.empty()) std::cout << found.json.dump() << '\n';
+}
+
 void distance(const DistanceVerbOptions& options) {
   check_tolerance(options.tolerance);
   if (std::isnan(options.at_most)) throw WrongUsage("--at-most: must be a number");
@@ -299,8 +308,9 @@ void add_distance(Parser& parser, ExitCode&) {
   verb.add_flag("--only-obstacles", options->only_obstacles,
                 "Measure only to bodies of the other files, not between bodies of the first file");
   options->allowed.add_options(verb);
-  verb.add_flag("--json", options->json, "Print JSON");
-  verb.add_option("-o,--output", options->output, "CSV file to write instead of printing the table")
+  verb.add_flag("--json", options->json, "Print JSON (default for two shapes)");
+  verb.add_option("-o,--output", options->output,
+                  "CSV file to write instead of printing the result")
       .writes_file();
   verb.add_option(
       "--at-most", options->at_most,

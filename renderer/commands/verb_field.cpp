@@ -106,6 +106,7 @@ void add_field(Parser& parser, ExitCode&) {
   const auto options = std::make_shared<FieldVerbOptions>();
   options->files = &verb.files();
   add_scene_option(verb, options->scene);
+  add_other_files(verb, options->import);
   add_import_options(verb, options->import);
   add_output_option(verb, options->outputs, std::string("the scene's name + ") + field_suffix);
   options->preview.add_to(verb);

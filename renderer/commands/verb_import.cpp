@@ -33,7 +33,9 @@ void import(const ImportVerbOptions& options) {
   options.files->read(imported.files);
   const std::string text = scene_text(imported.scene);
   write_file(options.output, text);
-  if (imported.model && !options.quiet) std::cerr << model_as_text(*imported.model);
+  if (options.quiet) return;
+  if (imported.model) std::cerr << model_as_text(*imported.model);
+  for (const Model& model : imported.other_models) std::cerr << model_as_text(model);
 }
 
 }  // namespace
@@ -45,6 +47,7 @@ void add_import(Parser& parser, ExitCode&) {
   verb.add_option("file", options->file, "Robot file: " + foreign_formats())
       .required()
       .reads_file();
+  add_other_files(verb, options->import);
   verb.add_option("-o,--output", options->output, "Scene file to write, .json")
       .required()
       .writes_file();

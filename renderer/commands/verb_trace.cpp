@@ -161,6 +161,7 @@ void add_trace(Parser& parser, ExitCode&) {
   const auto options = std::make_shared<TraceVerbOptions>();
   options->files = &verb.files();
   add_scene_option(verb, options->scene);
+  add_other_files(verb, options->import);
   add_import_options(verb, options->import);
   verb.add_option("--pixel", options->pixel,
                   "Column and row of the pixel, counted from 0 at the upper left, such as 100,80")

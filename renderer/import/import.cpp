@@ -19,6 +19,7 @@
 #include "renderer/import/scene_of_model.h"
 #include "renderer/import/sdf/sdf.h"
 #include "renderer/import/sdf/urdf.h"
+#include "renderer/scene/append_materials.h"
 #include "renderer/scene/default_light.h"
 #include "renderer/scene/framing.h"
 #include "renderer/scene/scene_instances.h"
@@ -198,26 +199,9 @@ void append_objects(Scene& to, Scene&& from) {
   if (instance_count(to) + instance_count(from) > most_instances)
     throw BadInput("all files together must have at most " + std::to_string(most_instances) +
                    " objects");
-  const auto shift = static_cast<std::uint32_t>(to.materials.size());
-  for (Material& material : from.materials) {
-    if (auto* mix = std::get_if<MixMaterial>(&material.kind))
-      for (std::uint32_t& index : mix->materials.indices) index += shift;
-    to.materials.push_back(std::move(material));
-  }
-  for (KeysOf<MaterialKind>& keys : from.material_keys) {
-    keys.index += shift;
-    if (auto* mix = std::get_if<MixMaterial>(&keys.keys.rest))
-      for (std::uint32_t& index : mix->materials.indices) index += shift;
-    to.material_keys.push_back(std::move(keys));
-  }
-  for (Object& object : from.objects) {
-    object.material += shift;
-    to.objects.push_back(std::move(object));
-  }
-  for (ParticleSet& set : from.particles) {
-    for (std::uint32_t& material : set.materials) material += shift;
-    to.particles.push_back(std::move(set));
-  }
+  append_materials(to, from);
+  for (Object& object : from.objects) to.objects.push_back(std::move(object));
+  for (ParticleSet& set : from.particles) to.particles.push_back(std::move(set));
   to.pictures.insert(to.pictures.end(), from.pictures.begin(), from.pictures.end());
   Hash hash;
   hash.add(to.hash);
@@ -239,16 +223,25 @@ void take_view(Scene& to, Scene& from) {
 }  // namespace
 
 Imported import_scene(const std::filesystem::path& file, const ImportOptions& options) {
-  Imported imported = import_alone(file, options);
-  if (options.others.empty()) return imported;
-  bool has_view = !imported.model;
+  if (options.others.empty()) return import_alone(file, options);
+  // Joints are those of the first file, the other options apply to every robot.
   ImportOptions of_robots = options;
   of_robots.keyframe.clear();
   of_robots.joints.clear();
   of_robots.joint_rows.clear();
+  ImportOptions of_scenes;
+  of_scenes.purpose = options.purpose;
+  const bool sets_joints =
+      !options.keyframe.empty() || !options.joints.empty() || !options.joint_rows.empty();
+  const bool begins_with_scene =
+      !is_foreign(file) && std::ranges::any_of(options.others, is_foreign);
+  if (begins_with_scene && sets_joints)
+    throw WrongUsage(
+        "--joint, --joints and --keyframe are for a robot, which must be the first file (" +
+        printable(file.string(), 100) + " is none)");
+  Imported imported = import_alone(file, begins_with_scene ? of_scenes : options);
+  bool has_view = !imported.model;
   for (const std::string& name : options.others) {
-    ImportOptions of_scenes;
-    of_scenes.purpose = options.purpose;
     Imported other = import_alone(name, is_foreign(name) ? of_robots : of_scenes);
     if (!has_view && !other.model) {
       take_view(imported.scene, other.scene);
@@ -258,6 +251,7 @@ Imported import_scene(const std::filesystem::path& file, const ImportOptions& op
     imported.files.insert(imported.files.end(), other.files.begin(), other.files.end());
     if (other.model) imported.other_models.push_back(std::move(*other.model));
   }
+  make_names_unique(imported.scene);
   if (!has_view) {
     imported.scene.lights.clear();
     frame_everything(imported.scene, options.picture);

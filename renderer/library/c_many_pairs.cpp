@@ -212,17 +212,19 @@ int minkray_times_of_impact(const minkray_bodies* a, const minkray_bodies* b, si
                                              offsetof(minkray_impact_arrays, jac_error_a));
     check_ends(t_max, t_max_count, count);
     const bool bound = to.jac_error_a || to.jac_error_b;
-    const bool derive = bound || wants_derivative(to);
+    ImpactOptions asked;
+    asked.is_for_derivatives = bound || wants_derivative(to);
     ask_all(all_a, all_b, count, memories, how,
             [&](size_t i, const PosedBody& one, const PosedBody& other, PairMemory* memory) {
               const RigidMotion motion_a = all_a.motion(i, one), motion_b = all_b.motion(i, other);
               const double end = t_max[t_max_count == 1 ? 0 : i];
               const Impact found =
                   memory && are_shapes(one, other)
-                      ? first_impact(one.shape(), motion_a, other.shape(), motion_b, end, *memory)
-                      : first_impact(one.parts(), motion_a, other.parts(), motion_b, end);
+                      ? first_impact(one.shape(), motion_a, other.shape(), motion_b, end, *memory,
+                                     asked)
+                      : first_impact(one.parts(), motion_a, other.parts(), motion_b, end, asked);
               tell(to, i, found);
-              if (!derive) return;
+              if (!asked.is_for_derivatives) return;
               const PairDerivative derivative =
                   derivative_at(one, motion_a, other, motion_b, found, end);
               tell_derivative(to, i, derivative);

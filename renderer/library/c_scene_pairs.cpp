@@ -342,8 +342,8 @@ int minkray_scene_time_of_impact(minkray_scene scene, const minkray_bodies* shap
                                                        : static_cast<uint32_t>(found.body);
       if (!query.derive && !query.jac_error) return;
       PairDerivativeError error;
-      const PairDerivative derivative =
-          bodies.derivative(body.parts(), motion, found, query.jac_error ? &error : nullptr);
+      const PairDerivative derivative = bodies.derivative(body.parts(), motion, found, query.mask,
+                                                          query.jac_error ? &error : nullptr);
       if (query.jac_error) put_error(error.a, query.jac_error + 2 * i);
       if (!query.derive) return;
       put_twist(derivative.a, told.jac);

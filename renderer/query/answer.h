@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/cast/cast.h"
+#include "core/pair_distance/signed_distance.h"
 #include "core/proof/check_certificate.h"
 #include "renderer/json/json.h"
 #include "renderer/paper/subalgorithm.h"
@@ -34,7 +35,8 @@ struct AnswerFacts {
 struct Answer {
   Json json;
   AnswerFacts facts;
-  std::optional<CertificateVerdict> verdict;  ///< on the answer's certificate, if requested
+  std::optional<CertificateVerdict> verdict;      ///< on the answer's certificate, if requested
+  std::optional<SignedDistance> signed_distance;  ///< the result of such a query
 };
 
 Answer answer(const Query& query, const AnswerOptions& options);

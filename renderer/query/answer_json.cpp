@@ -65,6 +65,7 @@ void add_verdict(Answer& answer, const CertificateVerdict& verdict, Status statu
 }
 
 void add_signed_distance(Answer& answer, const SignedDistance& result) {
+  answer.signed_distance = result;
   answer.facts.status = name_of(result.status);
   answer.facts.hit = result.status == SignedStatus::overlapping;
   answer.facts.distance = result.value;

@@ -15,6 +15,7 @@
 #include "renderer/library/handles/call.h"
 #include "renderer/library/handles/scene_bodies.h"
 #include "renderer/scene/add_instances.h"
+#include "renderer/scene/append_materials.h"
 #include "renderer/scene/scene_instances.h"
 
 namespace minkray {
@@ -101,15 +102,9 @@ std::uint32_t HeldScene::add(const HalfSpaceBody<double>& half_space, const char
 }
 
 void HeldScene::append(Scene&& from) {
-  const auto shift = static_cast<std::uint32_t>(scene_.materials.size());
-  for (Material& material : from.materials) {
-    if (auto* mix = std::get_if<MixMaterial>(&material.kind))
-      for (std::uint32_t& index : mix->materials.indices) index += shift;
-    scene_.materials.push_back(std::move(material));
-  }
+  append_materials(scene_, from);
   Instances& instances = changed();
   for (Object& object : from.objects) {
-    object.material += shift;
     add_object(instances, object);
     // Equal shapes share their points.
     if (object.has_shape())
@@ -117,10 +112,7 @@ void HeldScene::append(Scene&& from) {
     scene_.objects.push_back(std::move(object));
     ++size_;
   }
-  for (ParticleSet& set : from.particles) {
-    for (std::uint32_t& material : set.materials) material += shift;
-    scene_.particles.push_back(std::move(set));
-  }
+  for (ParticleSet& set : from.particles) scene_.particles.push_back(std::move(set));
   if (!has_camera_) {
     scene_.camera = from.camera;
     scene_.lights = std::move(from.lights);

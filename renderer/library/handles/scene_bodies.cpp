@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "core/derived/cube.h"
 #include "core/pair_derivative/impact_derivative_error.h"
@@ -66,6 +67,20 @@ constexpr double no_end = std::numeric_limits<double>::infinity();
 
 double value_of(const ScenePair& pair) {
   return pair.distance.is_unknown() ? no_end : pair.distance.value;
+}
+
+/// Marks pairs whose bounds meet those of another pair. The pairs are sorted by their values;
+/// `others` is a lower bound of the distances of further pairs.
+void mark_tied(std::vector<ScenePair>& pairs, double others) {
+  double most = -no_end;
+  for (ScenePair& pair : pairs) {
+    pair.is_tied = pair.distance.lower <= most;
+    most = std::max(most, pair.distance.upper);
+  }
+  for (ScenePair& pair : pairs | std::views::reverse) {
+    pair.is_tied = pair.is_tied || others <= pair.distance.upper;
+    others = std::min(others, pair.distance.lower);
+  }
 }
 
 }  // namespace
@@ -181,7 +196,8 @@ PairDerivative SceneBodies::derivative(const ScenePair& pair, PairDerivativeErro
 std::vector<ScenePair> SceneBodies::nearest(const ContactBody& to, std::size_t count,
                                             double at_most) const {
   std::vector<ScenePair> best;
-  for (const NearPair& pair : nearest_bodies(to, *world_, count, at_most))
+  double others = no_end;  // lower bound of the distances of other bodies
+  for (const NearPair& pair : nearest_bodies(to, *world_, count, at_most, &others))
     best.push_back({none, objects_[pair.b], pair.distance});
   for (const HalfSpace& half_space : half_spaces_) {
     if ((half_space.masks.category & to.mask) == 0) continue;
@@ -192,12 +208,22 @@ std::vector<ScenePair> SceneBodies::nearest(const ContactBody& to, std::size_t c
   }
   std::ranges::stable_sort(best, {},
                            [](const ScenePair& pair) { return std::pair(value_of(pair), pair.b); });
+  mark_tied(best, others);
   if (best.size() > count) best.resize(count);
   return best;
 }
 
 PairDerivative SceneBodies::derivative(const ContactBody& of, const ScenePair& pair,
                                        PairDerivativeError* error) const {
+  PairDerivative derivative = derivative_of_pair(of, pair, error);
+  if (!pair.is_tied) return derivative;
+  derivative.is_ridge = true;
+  if (error) *error = {};
+  return derivative;
+}
+
+PairDerivative SceneBodies::derivative_of_pair(const ContactBody& of, const ScenePair& pair,
+                                               PairDerivativeError* error) const {
   if (error) *error = {};
   if (const HalfSpace* const half_space = half_space_of(pair.b)) {
     SignedDistance distance = pair.distance;
@@ -226,16 +252,32 @@ bool SceneBodies::is_another_at(const Vec3<double>& point, std::uint32_t object,
         std::abs(one.plane.normal.dot((TwoFoldVec3<double>(point) - one.plane.point).rounded())) <=
             near)
       return true;
-  if (world_->bodies().empty()) return false;
-  float least[3], most[3];  // of what is near, rounded outwards
-  for (int axis = 0; axis < 3; ++axis) {
-    least[axis] = float_below(point[axis] - near);
-    most[axis] = -float_below(-(point[axis] + near));
-  }
   SignedDistanceOptions how;
   how.at_most = near;
   Affine<double> at;
   at.translation = point;
+  const Vec3<double> around = Vec3<double>::Constant(near);
+  return any_body_in({point - around, point + around}, [&](std::uint32_t index) {
+    // Most boxes that hold a point are of bodies that do not: their corners.
+    const Ball& ball = balls_[index];
+    if ((point - ball.middle).squaredNorm() > square(ball.radius + 2 * near) ||
+        objects_[index] == object)
+      return false;
+    const ContactBody& body = world_->bodies()[index];
+    const SignedDistance distance =
+        signed_distance(PartsBody(point_), at, body.parts(), body.pose, how);
+    return distance.lower <= near && distance.upper >= -near;
+  });
+}
+
+template <class Test>
+bool SceneBodies::any_body_in(const Bounds<double>& box, const Test& test) const {
+  if (world_->bodies().empty()) return false;
+  float least[3], most[3];  // of the box, rounded outwards
+  for (int axis = 0; axis < 3; ++axis) {
+    least[axis] = float_below(box.lower[axis]);
+    most[axis] = -float_below(-box.upper[axis]);
+  }
   std::uint32_t open[bvh_max_depth * (bvh_width - 1) + bvh_width];
   int count = 0;
   open[count++] = 0;
@@ -254,16 +296,7 @@ bool SceneBodies::is_another_at(const Vec3<double>& point, std::uint32_t object,
         if (is_in[i] != 0 && node.children[i] != BvhNode::none) open[count++] = node.children[i];
       continue;
     }
-    const std::uint32_t index = what & ~BvhNode::leaf;
-    // Most boxes that hold a point are of bodies that do not: their corners.
-    const Ball& ball = balls_[index];
-    if ((point - ball.middle).squaredNorm() > square(ball.radius + 2 * near) ||
-        objects_[index] == object)
-      continue;
-    const ContactBody& body = world_->bodies()[index];
-    const SignedDistance distance =
-        signed_distance(PartsBody(point_), at, body.parts(), body.pose, how);
-    if (distance.lower <= near && distance.upper >= -near) return true;
+    if (test(what & ~BvhNode::leaf)) return true;
   }
   return false;
 }
@@ -285,9 +318,52 @@ EarliestImpact SceneBodies::first_impact(const PartsBody& moving, const RigidMot
   return found;
 }
 
+bool SceneBodies::is_another_touched(const PartsBody& moving, const RigidMotion& motion,
+                                     const EarliestImpact& found, std::uint32_t mask,
+                                     double slowness) const {
+  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  const auto object = static_cast<std::uint32_t>(found.body);
+  const double time = found.impact.t_lo;
+  const double reach = reach_of(moving);
+  const double speed = motion.velocity.norm() + reach * motion.angular_velocity.norm();
+  // Until the contact is certain, the gap closes up to the distance at which bodies count as
+  // touching.
+  const double later =
+      std::max(found.impact.t_hi - time, slowness * 2 * std::max(found.impact.distance, 0.0));
+  const double near =
+      later * speed +
+      16 * epsilon * (reach + motion.pose.translation.norm() + found.impact.t_hi * speed);
+  const Affine<double> pose = motion.at(time);
+  for (const HalfSpace& one : half_spaces_)
+    if (one.object != object && (one.masks.category & mask) != 0 &&
+        distance_to_half_space(one.plane, moving, pose).lower <= near)
+      return true;
+  SignedDistanceOptions how;
+  how.at_most = near;
+  const Vec3<double> around = Vec3<double>::Constant(near);
+  const Bounds<double> box = bounds_of(moving, pose);
+  return any_body_in({box.lower - around, box.upper + around}, [&](std::uint32_t index) {
+    const ContactBody& body = world_->bodies()[index];
+    return objects_[index] != object && (body.category & mask) != 0 &&
+           signed_distance(moving, pose, body.parts(), body.pose, how).lower <= near;
+  });
+}
+
 PairDerivative SceneBodies::derivative(const PartsBody& moving, const RigidMotion& motion,
-                                       const EarliestImpact& found,
+                                       const EarliestImpact& found, std::uint32_t mask,
                                        PairDerivativeError* error) const {
+  PairDerivative derivative = derivative_of_impact(moving, motion, found, error);
+  if (found.impact.status != ImpactStatus::hit || derivative.is_ridge ||
+      !is_another_touched(moving, motion, found, mask, derivative.a.by_velocity.norm()))
+    return derivative;
+  derivative.is_ridge = true;
+  if (error) *error = {};
+  return derivative;
+}
+
+PairDerivative SceneBodies::derivative_of_impact(const PartsBody& moving, const RigidMotion& motion,
+                                                 const EarliestImpact& found,
+                                                 PairDerivativeError* error) const {
   if (error) *error = error_of(found.impact);
   if (found.body == EarliestImpact::none)
     return derivative_of(point_, motion, point_, motion, found.impact);

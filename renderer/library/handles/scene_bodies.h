@@ -19,6 +19,7 @@ namespace minkray {
 struct ScenePair {
   std::uint32_t a = no_instance, b = no_instance;
   SignedDistance distance;
+  bool is_tied = false;  ///< another result of nearest(), or an object it omits, may be as near
 };
 
 /// Immutable: any number of threads may query it.
@@ -40,7 +41,7 @@ class SceneBodies {
 
   /// The objects nearest to a body, the nearest first; of those in a category of the mask.
   std::vector<ScenePair> nearest(const ContactBody& to, std::size_t count, double at_most) const;
-  /// Derivative with respect to a twist of body `of`.
+  /// Derivative with respect to a twist of body `of`. A ridge if the pair is tied.
   PairDerivative derivative(const ContactBody& of, const ScenePair& pair,
                             PairDerivativeError* error = nullptr) const;
 
@@ -56,9 +57,11 @@ class SceneBodies {
   /// The object that is touched first; its number is in `body`.
   EarliestImpact first_impact(const PartsBody& moving, const RigidMotion& motion, double t_max,
                               std::uint32_t mask) const;
-  /// Fills `error`, if there is one.
+  /// Fills `error`, if there is one. A ridge if another object of the mask may be touched at the
+  /// same time.
   PairDerivative derivative(const PartsBody& moving, const RigidMotion& motion,
-                            const EarliestImpact& found, PairDerivativeError* error) const;
+                            const EarliestImpact& found, std::uint32_t mask,
+                            PairDerivativeError* error) const;
 
   /// True if the object is a half-space for contact.
   bool is_half_space(std::uint32_t object) const { return half_space_of(object) != nullptr; }
@@ -84,6 +87,18 @@ class SceneBodies {
     return world_->bodies()[body_of_[object]];
   }
   bool are_looked_at(std::uint32_t a, std::uint32_t b) const;
+  /// True if the test is true for a body whose box meets the given box.
+  template <class Test>
+  bool any_body_in(const Bounds<double>& box, const Test& test) const;
+  PairDerivative derivative_of_pair(const ContactBody& of, const ScenePair& pair,
+                                    PairDerivativeError* error) const;
+  PairDerivative derivative_of_impact(const PartsBody& moving, const RigidMotion& motion,
+                                      const EarliestImpact& found,
+                                      PairDerivativeError* error) const;
+  /// True if another object of the mask may be touched before the time by which `found.body`
+  /// certainly is. `slowness` is the time per length of approach to that body.
+  bool is_another_touched(const PartsBody& moving, const RigidMotion& motion,
+                          const EarliestImpact& found, std::uint32_t mask, double slowness) const;
   void add_half_spaces_near(double within, std::vector<ScenePair>& pairs) const;
 
   const HeldScene& scene_;

@@ -15,7 +15,7 @@ namespace {
 using P = Vec3<double>;
 using exact::RoundedFrustumForm;
 
-struct Body {
+struct FrustumBody {
   Frustum core;
   double radius;
 
@@ -38,7 +38,7 @@ struct Joint {
   double q, z, out, up;
 };
 
-Joint joint_of(const Body& body, bool is_above, bool at_lid) {
+Joint joint_of(const FrustumBody& body, bool is_above, bool at_lid) {
   const double q = body.core.radii[is_above ? 1 : 0], end = is_above ? 1 : -1;
   const double z = end * body.core.half_height, slant = body.core.radii[0] - body.core.radii[1];
   const double length = std::hypot(slant, 2 * body.core.half_height);
@@ -49,7 +49,7 @@ Joint joint_of(const Body& body, bool is_above, bool at_lid) {
 
 /// Rays that touch the surface at a joint, within 1 to 1e-16 of the size, at any angle or nearly
 /// tangent.
-Ray<double> at_joint(const Body& body, double distance, Random& random) {
+Ray<double> at_joint(const FrustumBody& body, double distance, Random& random) {
   const Joint joint = joint_of(body, random.below(2), random.below(2));
   const double angle = random.uniform(0, 2 * std::numbers::pi);
   const P outward(std::cos(angle), std::sin(angle), 0);
@@ -67,7 +67,7 @@ Ray<double> at_joint(const Body& body, double distance, Random& random) {
 }
 
 /// Rays near the tip of a cone, within 1 to 1e-16 of the rounding radius.
-Ray<double> at_tip(const Body& body, double distance, Random& random) {
+Ray<double> at_tip(const FrustumBody& body, double distance, Random& random) {
   const P tip(0, 0, body.core.half_height);
   const double reach =
       body.radius * (1 + std::pow(10.0, random.uniform(-16, 0)) * (random.below(2) ? 1 : -1));
@@ -78,7 +78,7 @@ Ray<double> at_tip(const Body& body, double distance, Random& random) {
 
 /// Judges `count` rays at a body, from near and from afar.
 template <class Next>
-Counted judge_body(const Body& body, int count, const Next& next) {
+Counted judge_body(const FrustumBody& body, int count, const Next& next) {
   SCOPED_TRACE(body.name());
   Counted counted;
   const PreparedShape prepared(body.shape());
@@ -94,12 +94,12 @@ Counted judge_body(const Body& body, int count, const Next& next) {
 }
 
 /// All bodies of some proportions and roundings that have the form.
-std::vector<Body> bodies() {
-  std::vector<Body> all;
+std::vector<FrustumBody> bodies() {
+  std::vector<FrustumBody> all;
   for (const double half_height : {0.0, 0.01, 0.2, 1.0, 4.0, 50.0})
     for (const double upper : {0.0, 1e-9, 0.1, 0.7, 1 - 1e-9, 1.0, 3.0})
       for (const double rounding : {1e-6, 1e-3, 0.05, 1.0, 2.0, 100.0}) {
-        const Body body{{{1, upper}, half_height}, rounding};
+        const FrustumBody body{{{1, upper}, half_height}, rounding};
         if (body.has_form()) all.push_back(body);
       }
   return all;
@@ -116,7 +116,7 @@ Counted& operator+=(Counted& sum, const Counted& part) {
 /// Most of the rays in doubt are tangent within rounding.
 TEST(RoundedFrustum, rays_at_joints_of_any_body_break_no_bound) {
   Counted counted;
-  for (const Body& body : bodies()) counted += judge_body(body, 100, at_joint);
+  for (const FrustumBody& body : bodies()) counted += judge_body(body, 100, at_joint);
   EXPECT_GT(bodies().size(), 80u);
   EXPECT_LT(counted.in_doubt, 0.35 * counted.answered);
   EXPECT_GT(counted.hits, 0.4 * counted.answered);
@@ -125,7 +125,7 @@ TEST(RoundedFrustum, rays_at_joints_of_any_body_break_no_bound) {
 
 TEST(RoundedFrustum, rays_at_tips_break_no_bound) {
   Counted counted;
-  for (const Body& body : bodies())
+  for (const FrustumBody& body : bodies())
     if (body.core.radii[1] == 0) counted += judge_body(body, 300, at_tip);
   EXPECT_LT(counted.in_doubt, 0.1 * counted.answered);
   EXPECT_GT(counted.hits, 0.4 * counted.answered);
@@ -133,13 +133,14 @@ TEST(RoundedFrustum, rays_at_tips_break_no_bound) {
 }
 
 TEST(RoundedFrustum, grazing_rays_are_hardly_ever_in_doubt) {
-  for (const Body& body :
-       {Body{{{1, 1}, 0.7}, 0.2}, Body{{{1, 0}, 1}, 0.2}, Body{{{2, 0}, 0.2}, 0.05},
-        Body{{{0.5, 0.5}, 0.2}, 3}, Body{{{1, 1}, 0}, 0.1}}) {
+  for (const FrustumBody& body :
+       {FrustumBody{{{1, 1}, 0.7}, 0.2}, FrustumBody{{{1, 0}, 1}, 0.2},
+        FrustumBody{{{2, 0}, 0.2}, 0.05}, FrustumBody{{{0.5, 0.5}, 0.2}, 3},
+        FrustumBody{{{1, 1}, 0}, 0.1}}) {
     const Shape shape = body.shape();
     FamilyRays rays(shape, RayFamily::grazing, 92);
     const Counted counted =
-        judge_body(body, 500, [&](const Body&, double, Random&) { return rays.next(); });
+        judge_body(body, 500, [&](const FrustumBody&, double, Random&) { return rays.next(); });
     EXPECT_LT(counted.in_doubt, 0.002 * counted.answered);
     EXPECT_GT(counted.misses, 0.3 * counted.answered);
   }
@@ -148,21 +149,21 @@ TEST(RoundedFrustum, grazing_rays_are_hardly_ever_in_doubt) {
 /// Heights of apexes that are too far away, sides that are too flat.
 TEST(RoundedFrustum, bodies_whose_bounds_would_be_wide_have_no_form) {
   for (const double upper : {0.0, 0.5, 0.6, 0.7, 0.75, 0.8, 0.9}) {
-    const Body body{{{1, upper}, 1}, 0.1};
+    const FrustumBody body{{{1, upper}, 1}, 0.1};
     const double per_height = (1 - upper) / 2, side = std::hypot(1, per_height) / per_height;
     const double apex = 1 + upper / per_height + body.radius * side;
     EXPECT_EQ(body.has_form(), apex < 8 * body.size()) << upper;
   }
   for (const double sine : {0.5, 0.9, 0.985, 0.995}) {
     const double height = std::sqrt(1 - sine * sine) / sine;
-    EXPECT_EQ((Body{{{1, 0}, height / 2}, 0.01}).has_form(), sine < 0.99) << sine;
+    EXPECT_EQ((FrustumBody{{{1, 0}, height / 2}, 0.01}).has_form(), sine < 0.99) << sine;
   }
   EXPECT_EQ(PreparedShape(Shape(Disk{1})).definition().form().kind, FormKind::none);
 }
 
 /// E is 2^-51 of the distance from the origin, and must be less than 1/16 of the rounding radius.
 TEST(RoundedFrustum, edges_within_rounding_are_in_doubt) {
-  const Shape body = Body{{{1, 1}, 1}, 1e-6}.shape();
+  const Shape body = FrustumBody{{{1, 1}, 1}, 1e-6}.shape();
   const auto path_at = [&](double x) {
     const PreparedShape moved(body, {Mat3<double>::Identity(), {x, 0, 0}});
     return cast_ray(moved, {{x - 3, 0.1, 0.2}, {1, 0, 0}}).path;

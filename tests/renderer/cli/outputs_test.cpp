@@ -47,8 +47,6 @@ std::vector<Command> writing_commands() {
   several.push_back({"others", "scene.json", "r.urdf scene.json -r 8x6 "});
   std::vector<Reading> pictures = several;
   pictures.push_back({"--camera-file", "camera.json", robot + "--camera-file camera.json "});
-  std::vector<Reading> single = scene;
-  single.push_back(pictures.back());
   return {
       {"render",
        with(pictures, "-s 1 -q"),
@@ -57,7 +55,7 @@ std::vector<Command> writing_commands() {
       {"merge", {{"parts", "part.exr", "part.exr"}}, {{"--output", {"o.png"}}}},
       {"heatmap", with(pictures, "-q"), {{"--output", {"o.png"}}}},
       {"inspect", with(pictures, "-s 1 -q"), {{"--output", {"o.html"}}}},
-      {"compare", with(scene, "--rays 10 --directions 20 -q"), {{"--output", {"o.png"}}}},
+      {"compare", with(several, "--rays 10 --directions 20 -q"), {{"--output", {"o.png"}}}},
       {"scan",
        {{"scene", "r.urdf", "r.urdf --pattern spinning:2x4 -q"},
         {"others", "scene.json", "r.urdf scene.json --pattern spinning:2x4 -q"},
@@ -74,6 +72,7 @@ std::vector<Command> writing_commands() {
        {{"--output", {"o.csv"}}}},
       {"clearance",
        {{"robot", "r.urdf", "r.urdf --path rows.csv"},
+        {"others", "scene.json", "r.urdf scene.json --path rows.csv"},
         {"--path", "rows.csv", "r.urdf --path rows.csv"},
         {"--obstacle", "scene.json", "r.urdf --path rows.csv --obstacle scene.json"},
         {"--srdf", "r.srdf", "r.urdf --path rows.csv --srdf r.srdf"}},
@@ -86,15 +85,18 @@ std::vector<Command> writing_commands() {
        {{"--output", {"o.json"}}}},
       {"field",
        with({{"scene", "r.urdf", robot},
+             {"others", "scene.json", "r.urdf scene.json -r 8x6 "},
              {"--joints", "rows.csv", rows},
              {"--probe", "probe.json", robot + "--probe probe.json "}},
             "-q"),
        {{"--output", {"o.png"}}}},
-      {"trace", with(single, "--pixel 1,1"), {{"--svg", {"o.svg"}}}},
+      {"trace", with(pictures, "--pixel 1,1"), {{"--svg", {"o.svg"}}}},
       {"distance-2d", {{"file", "pair.json", "pair.json"}}, {{"--output", {"o.svg"}}}},
       {"generate", {{"", "", "spheres -n 3"}}, {{"--output", {"o.json"}}}},
       {"import",
-       {{"file", "r.urdf", "r.urdf -q"}, {"--joints", "rows.csv", "r.urdf -q --joints rows.csv"}},
+       {{"file", "r.urdf", "r.urdf -q"},
+        {"others", "scene.json", "r.urdf scene.json -q"},
+        {"--joints", "rows.csv", "r.urdf -q --joints rows.csv"}},
        {{"--output", {"o.json"}}}},
       {"league",
        {{"--cases", "queries.jsonl", "--cases queries.jsonl"}},

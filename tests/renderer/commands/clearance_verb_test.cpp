@@ -97,6 +97,14 @@ TEST_F(ClearanceVerb, without_a_path_it_is_that_of_one_pose) {
 }
 
 /// Previously "clear", with infinite bounds.
+TEST_F(ClearanceVerb, obstacles_may_follow_the_robot) {
+  const ProgramOutcome named = clearance("--path swing.csv --obstacle ball.json");
+  ASSERT_EQ(named.exit_code, 0) << named.err;
+  const ProgramOutcome bare = clearance("ball.json --path swing.csv");
+  EXPECT_EQ(bare.out, named.out) << bare.err;
+  EXPECT_NE(clearance("--path swing.csv").out, named.out);
+}
+
 TEST_F(ClearanceVerb, particles_are_obstacles) {
   std::ofstream(folder / "grains.json") << R"({"version": 1, "lights": [],
     "camera": {"position": [0, -9, 1], "look_at": [0, 0, 0]},

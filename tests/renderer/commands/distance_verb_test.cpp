@@ -65,6 +65,41 @@ TEST_F(DistanceVerb, of_two_shapes_is_one_object) {
   EXPECT_NEAR(answer["value"].get<double>(), 3, 1e-12);
 }
 
+TEST_F(DistanceVerb, of_two_shapes_is_a_table_of_one_row_in_a_file) {
+  const ProgramOutcome file = run("tool.json other.json -o pair.csv");
+  ASSERT_EQ(file.exit_code, 0) << file.err;
+  EXPECT_EQ(file.out, "");
+  const std::string header =
+      "a,b,status,value,lower,upper,point_a_x,point_a_y,point_a_z,"
+      "point_b_x,point_b_y,point_b_z,normal_x,normal_y,normal_z\n";
+  const std::string text = text_of_file(folder_ / "pair.csv");
+  ASSERT_TRUE(text.starts_with(header + "tool,other,separated,")) << text;
+  EXPECT_EQ(std::ranges::count(text, '\n'), 2);
+  const auto numbers = [&](const char* words) {
+    const ProgramOutcome outcome = run(std::string(words) + " -o pair.csv --json");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    std::istringstream row(text_of_file(folder_ / "pair.csv").substr(header.size()));
+    std::vector<std::string> cells;
+    for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+    EXPECT_EQ(cells.size(), 15u);
+    cells.resize(15);
+    return std::pair(cells, Json::parse(outcome.out));
+  };
+  const auto [cells, json] = numbers("tool.json other.json");
+  EXPECT_EQ(std::stod(cells[3]), json["value"].get<double>());
+  EXPECT_EQ(std::stod(cells[4]), json["lower"].get<double>());
+  EXPECT_EQ(std::stod(cells[5]), json["upper"].get<double>());
+  EXPECT_NEAR(std::stod(cells[7]), 4, 1e-12);   // the tool's lowest point along y
+  EXPECT_NEAR(std::stod(cells[10]), 1, 1e-12);  // the other's highest
+  EXPECT_NEAR(std::stod(cells[13]), -1, 1e-12);
+  // A lower bound alone has no points.
+  const auto [bound, bound_json] = numbers("tool.json other.json --at-most 1");
+  EXPECT_GT(std::stod(bound[4]), 1);
+  EXPECT_EQ(std::stod(bound[4]), bound_json["lower"].get<double>());
+  EXPECT_EQ(bound[5], "inf");
+  EXPECT_EQ(bound[6] + bound[9], "");
+}
+
 TEST_F(DistanceVerb, of_a_robot_among_others_is_a_table_by_distance) {
   // The cart is at 2, and the hand at 2 - 1: turned by pi about y.
   const Json answer = json_of("arm.urdf world.sdf --joint rail=2 --joint turn=3.141592653589793");
@@ -175,6 +210,7 @@ TEST_F(DistanceVerb, what_is_wrong_with_its_words_or_files_is_told) {
   expect("", 2, "files");
   expect("tool.json", 2, "must have a second file");
   expect("tool.json other.json --within 1", 2, "for two shapes only");
+  expect("tool.json other.json -o pair.txt", 2, "must end in .csv");
   expect("tool.json other.json --joint rail=1", 2, "for two shapes only");
   expect("arm.urdf --at-most 1", 2, "are for two shapes");
   expect("ball.json arm.urdf --joint rail=1", 2, "must be the first file");

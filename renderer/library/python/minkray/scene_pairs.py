@@ -66,8 +66,8 @@ class Nearest(_Arrays):
         A `DistanceStatus`.
     jac, is_ridge : six numbers, and bool
         With ``jac=True``: the derivative of `value` with respect to a twist of the shape (for a
-        point, its velocity), and True where it may be ambiguous. Other objects at the same distance
-        do not make it ambiguous. NaN without an object.
+        point, its velocity), and True where it may be ambiguous: also if another object may be as
+        near. NaN without an object.
     jac_error : two numbers
         With ``jac_error=True``: bounds of the length of the error of `jac`, as in `Distances`; NaN
         without an object.
@@ -91,8 +91,8 @@ class SceneImpacts(_Arrays):
     normal, point_a, point_b, distance, status
         As in `Impacts`; a is the shape.
     jac, is_ridge : (N, 6) float64, (N,) bool
-        With ``jac=True``: the derivative of the time with respect to a twist of the shape at time 0.
-        Other objects met at the same time do not make it ambiguous.
+        With ``jac=True``: the derivative of the time with respect to a twist of the shape at time 0,
+        and True where it may be ambiguous: also if another object may be touched at the same time.
     jac_error : (N, 2) float64
         With ``jac_error=True``: bounds of the length of the error of `jac`, as in `Impacts`.
     """
