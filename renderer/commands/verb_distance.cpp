@@ -246,8 +246,9 @@ void distance_of_shapes(const DistanceVerbOptions& options) {
   if (options.is_of_table())
     throw WrongUsage(
         "distance: for two shapes only --tolerance, --at-most, --only-sign, --json and -o apply");
-  SignedDistanceQuery query{shape_in(options.files[0], options.command_files),
-                            shape_in(options.files[1], options.command_files)};
+  SignedDistanceQuery query;
+  query.a = shape_in(options.files[0], options.command_files);
+  query.b = shape_in(options.files[1], options.command_files);
   query.at_most = options.at_most;
   query.only_sign = options.only_sign;
   AnswerOptions how;
