@@ -2,6 +2,7 @@
 #include "core/mesh/exact_sign.h"
 
 #include <array>
+#include <cmath>
 
 #include "core/math/two_fold.h"
 
@@ -12,6 +13,7 @@ namespace {
 class ExactSum {
  public:
   void add(double x) {
+    if (is_beyond_) return;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < size_; ++i) {
       const TwoFold<double> sum = two_sum(x, terms_[i]);
@@ -19,7 +21,9 @@ class ExactSum {
       if (sum.low != 0) terms_[kept++] = sum.low;
     }
     if (x != 0) terms_[kept++] = x;
-    size_ = kept;
+    // Numbers that are not finite would never cancel, and need more room than there is.
+    is_beyond_ = !std::isfinite(x);
+    size_ = is_beyond_ ? 0 : kept;
   }
   /// a * b * c, each the sum of two numbers.
   void add_product(const TwoFold<double>& a, const TwoFold<double>& b, const TwoFold<double>& c) {
@@ -43,6 +47,7 @@ class ExactSum {
   static constexpr std::size_t most_terms = 6 * 16 + 1;
   std::array<double, most_terms> terms_;
   std::size_t size_ = 0;
+  bool is_beyond_ = false;
 };
 
 using Exact3 = std::array<TwoFold<double>, 3>;

@@ -9,7 +9,7 @@ namespace minkray {
 
 /// The sign of d . ((a - o) x (b - a)): -1, 0 or 1. Uses sums without rounding (Shewchuk, "Adaptive
 /// Precision Floating-Point Arithmetic", 1997), so the sign is exact unless a product leaves the
-/// range of double.
+/// range of double: then, and for numbers that are not finite, 0.
 int exact_side_of_edge(const Vec3<double>& o, const Vec3<double>& d, const Vec3<double>& a,
                        const Vec3<double>& b);
 

@@ -170,7 +170,7 @@ std::vector<PartHit> all_parts(const TriangleMesh& mesh, const Ray<double>& ray)
 }
 
 bool is_within(const TriangleMesh& mesh, const Vec3<double>& point) {
-  if (!mesh.is_closed()) return false;
+  if (!mesh.is_closed() || !point.allFinite()) return false;
   // Limit of tries for a direction whose ray passes through no edge; nearly all directions qualify.
   constexpr int most_tries = 64;
   for (int i = 1; i <= most_tries; ++i) {

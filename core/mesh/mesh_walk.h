@@ -55,13 +55,13 @@ inline bool takes_place(const TriangleMesh& mesh, const Ray<double>& ray, const 
 }
 
 /// True if the ray is suitable for lanes: products of any three coordinates of ray and mesh are
-/// finite.
+/// finite. Sums are NaN if any number is: no lane may select a triangle that a leaf does not have.
 inline bool suits_lanes(const Ray<double>& ray) {
   constexpr double largest = 0x1p64, smallest = 0x1p-64;
   double origin = 0, direction = 0;
   for (int k = 0; k < 3; ++k) {
-    origin = origin < std::abs(ray.origin[k]) ? std::abs(ray.origin[k]) : origin;
-    direction = direction < std::abs(ray.direction[k]) ? std::abs(ray.direction[k]) : direction;
+    origin += std::abs(ray.origin[k]);
+    direction += std::abs(ray.direction[k]);
   }
   return origin <= largest && direction >= smallest && direction <= largest;
 }

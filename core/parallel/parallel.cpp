@@ -90,10 +90,13 @@ void in_some_arena(const std::function<void()>& work) {
 void parallel_for(std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& body) {
   in_some_arena([&] {
+    // An exception elsewhere in a pipeline must not cancel this loop, which would return as if all
+    // of its work were done.
+    tbb::task_group_context context(tbb::task_group_context::isolated);
     tbb::parallel_for(
         tbb::blocked_range<std::size_t>(0, count, grain),
         [&](const tbb::blocked_range<std::size_t>& range) { body(range.begin(), range.end()); },
-        tbb::simple_partitioner());
+        tbb::simple_partitioner(), context);
   });
 }
 

@@ -82,10 +82,11 @@ double loss_of_direction(const PosedMesh& posed, const Vec3<double>& direction, 
   return map_rounding * (posed.to_mesh.cwiseAbs() * scaled.cwiseAbs()).norm();
 }
 
-/// False if numbers of the mapped ray are too large, or if its direction is zero.
+/// False if numbers of the mapped ray are too large or NaN, as sums are then, or if its direction
+/// is zero.
 bool is_usable(const Ray<double>& near) {
-  const double size = near.direction.cwiseAbs().maxCoeff();
-  return size > 0 && size <= largest_number && near.origin.cwiseAbs().maxCoeff() <= largest_number;
+  const double size = near.direction.cwiseAbs().sum();
+  return size > 0 && size <= largest_number && near.origin.cwiseAbs().sum() <= largest_number;
 }
 
 double t_min_of(const PosedMesh& posed, const Ray<double>& near, bool leaves) {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "renderer/query/pair_body.h"
 
+#include <stdexcept>
+#include <string>
+
 #include "core/derived/triangle_of.h"
 #include "core/mesh/mapped.h"
 
@@ -18,7 +21,11 @@ PairBody::PairBody(const QueryBody& body, const ImpactMotion& motion)
     mesh_ = body.mesh;
     motion_.pose = body.pose;
   } else {
-    mesh_ = mapped(*body.mesh, {body.pose.linear, body.pose.translation - motion.pivot});
+    try {
+      mesh_ = mapped(*body.mesh, {body.pose.linear, body.pose.translation - motion.pivot});
+    } catch (const std::invalid_argument& error) {
+      throw std::runtime_error(std::string("a transformed mesh's ") + error.what());
+    }
   }
 }
 

@@ -13,6 +13,7 @@ namespace minkray {
 /// Refers to the query's body, which must outlive it.
 class PairBody {
  public:
+  /// Throws std::runtime_error if the mesh's vertices under the pose are out of range.
   explicit PairBody(const QueryBody& body, const ImpactMotion& motion = {});
 
   PartsBody parts() const { return mesh_ ? PartsBody(*mesh_) : PartsBody(*shape_); }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/mesh/mapped.h"
+#include "core/mesh/mesh_ray.h"
 #include "core/parts/parts_contact.h"
 #include "core/parts/parts_impact.h"
 #include "core/parts/parts_reach.h"
@@ -272,6 +273,26 @@ TEST(MeshPairs, rest_on_as_many_points_as_convex_bodies) {
   Affine<double> tilted = at(0, 0, 0.001 + 0.5 * std::cos(0.3) + 1.5 * std::sin(0.3));
   tilted.linear = rotation_matrix<double>(0, std::sin(0.15), 0, std::cos(0.15));
   EXPECT_EQ(contact_manifold(*flat, {}, box, tilted).count, 2);
+}
+
+/// The difference of such poses is not a number; float lanes then took triangles that leaves do not
+/// have, and the program ended.
+TEST(MeshPairs, beyond_the_largest_numbers_are_not_decided) {
+  const MeshPointer ball = testing::bumpy_ball(7, 9).shared();
+  const ContactShape box{Shape(Box{{0.2, 0.2, 0.1}})};
+  for (const double x : {1e155, 1e300, 1.7e308})
+    for (const PartsBody& other : {PartsBody(*ball), PartsBody(box)}) {
+      testing::Random random(5);
+      const Affine<double> far{random.rotation(), {x, -x, x}},
+          other_side{random.rotation(), {-x, x, x}};
+      const SignedDistance found = signed_distance(*ball, far, other, other_side);
+      EXPECT_NE(found.status, SignedStatus::overlapping) << x;
+      EXPECT_TRUE(found.status != SignedStatus::separated || found.lower > x) << x;
+      const Impact impact =
+          first_impact(*ball, {far, {-x, 0, 0}}, other, {other_side, {x, 0, 0}}, 1);
+      EXPECT_NE(impact.status, ImpactStatus::inside) << x;
+    }
+  EXPECT_FALSE(is_within(*ball, Vec3<double>::Constant(std::nan(""))));
 }
 
 /// A ball above a valley: projected on one slope's normal, the other slope's nearest points were

@@ -239,6 +239,20 @@ TEST(MeshQueries, height_fields_are_terrains) {
             "overlapping");
 }
 
+/// std::invalid_argument ended the program: only std::runtime_error is a line's own mistake.
+TEST(MeshQueries, meshes_that_leave_the_range_cannot_be_answered) {
+  Affine<double> huge;
+  huge.linear *= 1e95;
+  const Json far = mesh_body(testing::block({1, 1, 1}), huge);
+  Mistakes mistakes("q");
+  MeshFiles files{std::filesystem::path()};
+  const auto query =
+      parse_query(Json{{"query", "distance"}, {"a", far}, {"b", ball_body(1, {0, 0, 0})}}.dump(),
+                  files, mistakes);
+  ASSERT_TRUE(query) << mistakes.text();
+  EXPECT_THROW(answer(*query, {}), std::runtime_error);
+}
+
 TEST(MeshQueries, files_are_read_once_and_scaled) {
   const TemporaryFolder folder;
   folder.write("face.obj", "v 0 0 0\nv 8 0 0\nv 0 8 0\nf 1 2 3\n");
