@@ -66,8 +66,9 @@ bool is_accurate(const ContactShape& a, const RigidMotion& motion_a, const Conta
 
 void settle(const ContactShape& a, const RigidMotion& motion_a, const ContactShape& b,
             const RigidMotion& motion_b, Impact& found) {
-  if (has_small_error(motion_a, motion_b, found) || is_accurate(a, motion_a, b, motion_b, found))
-    return;
+  if (has_small_error(motion_a, motion_b, found)) return;
+  found.normal_error = std::numeric_limits<double>::infinity();
+  if (is_accurate(a, motion_a, b, motion_b, found)) return;
   const Affine<double> pose_a = motion_a.at(found.t_lo), pose_b = motion_b.at(found.t_lo);
   const Vec3<double> middle = middle_in_world(a, pose_a);
   if (is_curved(a.core()) || is_curved(b.core())) {

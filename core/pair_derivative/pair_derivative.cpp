@@ -286,13 +286,15 @@ PairDerivative of_hit(const ContactShape& a, const RigidMotion& motion_a, const 
   const BodyAtContact of_a(motion_a, found.t_lo, found.point_a),
       of_b(motion_b, found.t_lo, found.point_b);
   const double closing = found.normal.dot(of_a.velocity - of_b.velocity);
-  constexpr double grazing = 1e-6;  // of the points' speeds: less is no approach to speak of
-  constexpr double known = 1e-12;   // of the sizes: what the normal of a contact is known to
+  constexpr double grazing = 1e-6;   // of the points' speeds: less is no approach to speak of
+  constexpr double settled = 1e-12;  // error of a settled normal, in radians
+  const double error =
+      std::isfinite(found.normal_error) ? std::max(settled, found.normal_error) : settled;
   const double size = a.ball_radius() + b.ball_radius();
   const ContactHeights heights{of_a.height(a, found.normal), of_b.height(b, -found.normal)};
   return {of_a.derivative(-found.normal / closing), of_b.derivative(found.normal / closing),
           !(closing > grazing * (of_a.velocity.norm() + of_b.velocity.norm())) ||
-              have_many_points(a, of_a.linear, b, of_b.linear, found.normal, known * known * size,
+              have_many_points(a, of_a.linear, b, of_b.linear, found.normal, error * error * size,
                                size, heights)};
 }
 

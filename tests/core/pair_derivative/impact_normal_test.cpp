@@ -100,5 +100,23 @@ TEST(ImpactNormals, are_as_accurate_as_derivatives_need) {
   EXPECT_GT(estimated, hits / 2);
 }
 
+TEST(ImpactNormals, faces_that_meet_are_ridges) {
+  const Shape box = Box{{0.8, 0.5, 0.7}};
+  const Shape lens = HullOf{{Shape(Capsule{0.1, 0.5}), Shape(Ellipsoid{{0.3, 0.2, 0.4}})}};
+  const ContactShape flat((Shape(box))), grown(Shape(MinkowskiSum{{lens, box}}));
+  RandomShapes random(92);
+  for (int i = 0; i < 40; ++i) {
+    RigidMotion of_a, of_b;
+    of_a.pose.linear = of_b.pose.linear = random.rotation();
+    of_a.pose.translation = of_a.pose.linear * Vec3<double>(random.in(-1, 1), 3, random.in(-1, 1));
+    of_a.velocity = of_a.pose.linear * Vec3<double>(random.in(-1, 1), -4, random.in(-1, 1));
+    ImpactOptions options;
+    options.is_for_derivatives = true;
+    const Impact found = first_impact(grown, of_a, flat, of_b, 2, options);
+    ASSERT_EQ(found.status, ImpactStatus::hit);
+    EXPECT_TRUE(derivative_of(grown, of_a, flat, of_b, found).is_ridge) << found.normal_error;
+  }
+}
+
 }  // namespace
 }  // namespace minkray::testing
