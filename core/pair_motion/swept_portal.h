@@ -162,7 +162,7 @@ class SweptPortal {
     if (query_.is_for_derivatives && !is_polytope()) sharpen();
   }
 
-  /// Estimates a better axis from the portal, and its error. With the weights w_i of the contact,
+  /// Improves the axis by the portal, and estimates its error. With the weights w_i of the contact,
   /// the gap between the bounds limits the height of the true plane above the point i to gap / w_i:
   /// the plane is known along long edges.
   void sharpen() {
@@ -242,8 +242,8 @@ class SweptPortal {
     take_estimate(n, step.norm() + query_.rounding * size * (one.norm() + other.norm()) / area, 0);
   }
 
-  /// True if the surface bends so little that it may be a face: normals of a face's corners say
-  /// nothing about its normal.
+  /// True if the surface bends so little that it may be a face, whose normal the normals of its
+  /// corners do not determine.
   bool is_flat(double width, double bend) const {
     constexpr double most = 1e3;  // radius of curvature in sizes
     return !(width <= most * query_.size * bend);

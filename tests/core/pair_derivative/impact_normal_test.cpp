@@ -84,7 +84,7 @@ TEST(ImpactNormals, are_as_accurate_as_derivatives_need) {
           ++estimated;
           const double error =
               static_cast<double>((found.normal.cast<long double>() - normal).norm());
-          constexpr double of_oracle = 1e-9;
+          constexpr double of_oracle = 1e-8;
           EXPECT_LE(error, found.normal_error + of_oracle) << where;
         }
         // The derivative by B's velocity is the normal divided by the closing speed.

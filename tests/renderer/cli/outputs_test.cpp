@@ -85,7 +85,7 @@ std::vector<Command> writing_commands() {
        {{"--output", {"o.json"}}}},
       {"field",
        with({{"scene", "r.urdf", robot},
-             {"others", "scene.json", "r.urdf scene.json -r 8x6 "},
+             {"others", "r.urdf", "r.urdf r.urdf -r 8x6 "},  // the scene has particles
              {"--joints", "rows.csv", rows},
              {"--probe", "probe.json", robot + "--probe probe.json "}},
             "-q"),
@@ -95,7 +95,7 @@ std::vector<Command> writing_commands() {
       {"generate", {{"", "", "spheres -n 3"}}, {{"--output", {"o.json"}}}},
       {"import",
        {{"file", "r.urdf", "r.urdf -q"},
-        {"others", "scene.json", "r.urdf scene.json -q"},
+        {"others", "r.urdf", "r.urdf r.urdf -q"},
         {"--joints", "rows.csv", "r.urdf -q --joints rows.csv"}},
        {{"--output", {"o.json"}}}},
       {"league",

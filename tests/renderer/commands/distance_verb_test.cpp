@@ -93,11 +93,14 @@ TEST_F(DistanceVerb, of_two_shapes_is_a_table_of_one_row_in_a_file) {
   EXPECT_NEAR(std::stod(cells[10]), 1, 1e-12);  // the other's highest
   EXPECT_NEAR(std::stod(cells[13]), -1, 1e-12);
   // A lower bound alone has no points.
-  const auto [bound, bound_json] = numbers("tool.json other.json --at-most 1");
+  folder_.write("egg.json", R"({"type": "transform", "translate": [0, 5, 1],
+    "shape": {"type": "ellipsoid", "radii": [1, 0.5, 0.25]}})");
+  folder_.write("can.json", R"({"type": "cylinder", "radius": 1, "half_height": 1})");
+  const auto [bound, bound_json] = numbers("egg.json can.json --at-most 1");
   EXPECT_GT(std::stod(bound[4]), 1);
   EXPECT_EQ(std::stod(bound[4]), bound_json["lower"].get<double>());
-  EXPECT_EQ(bound[5], "inf");
-  EXPECT_EQ(bound[6] + bound[9], "");
+  EXPECT_EQ(bound[5] == "inf", bound_json["upper"].is_null());
+  EXPECT_EQ(bound[6].empty(), !bound_json.contains("point_a"));
 }
 
 TEST_F(DistanceVerb, of_a_robot_among_others_is_a_table_by_distance) {

@@ -87,7 +87,7 @@ TEST_F(BetweenBalls, distances_to_both_are_ridges_if_they_are_equal) {
   };
   mk::PairDerivativeError error = {};
   const mk::ScenePair both = distance(0, error);
-  EXPECT_NEAR(both.distance.value, 0.6 - 0.75, 1e-12);  // they overlap
+  EXPECT_NEAR(both.distance.value, 0.6 - 0.75, 1e-12);  // overlapping
   EXPECT_NE(both.is_ridge, 0);
   EXPECT_TRUE(std::isinf(error.a.velocity));
   for (const double x : {-0.1, -1e-7, 1e-7, 0.1}) {
