@@ -107,7 +107,7 @@ TEST(ImpactNormals, faces_that_meet_are_ridges) {
   RandomShapes random(92);
   for (int i = 0; i < 40; ++i) {
     RigidMotion of_a, of_b;
-    of_a.pose.linear = of_b.pose.linear = random.rotation();
+    of_a.pose.linear = of_b.pose.linear = random.turn();
     of_a.pose.translation = of_a.pose.linear * Vec3<double>(random.in(-1, 1), 3, random.in(-1, 1));
     of_a.velocity = of_a.pose.linear * Vec3<double>(random.in(-1, 1), -4, random.in(-1, 1));
     ImpactOptions options;
