@@ -30,8 +30,11 @@ Real3 true_normal(const MovingBodies& moving, const Impact& found) {
   using Long = long double;
   const WithoutRadius core_a = without_radius(moving.a.shape),
                       core_b = without_radius(moving.b.shape);
-  const LongBody a{&core_a.shape, moving.of_a.pose.cast<Long>()};
+  LongBody a{&core_a.shape, moving.of_a.pose.cast<Long>()};
   LongBody b{&core_b.shape, moving.of_b.pose.cast<Long>()};
+  // Far from the origin, long double has few digits, too.
+  b.pose.translation -= a.pose.translation;
+  a.pose.translation.setZero();
   const Real3 velocity = moving.of_b.velocity.cast<Long>();
   b.pose.translation += Long(found.t_lo) * velocity;
   const Long radii = core_a.radius + core_b.radius;
