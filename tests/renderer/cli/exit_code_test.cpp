@@ -112,8 +112,8 @@ TEST(Cli, names_of_files_do_not_steer_the_terminal) {
   std::ofstream(folder / name) << "{\"version\": 2}";
   for (const std::string arguments :
        {"info 'FILE'", "info 'FILE.none'", "cast 'FILE'", "cast 'FILE.none'",
-        "render 'FILE' -o a.png", "merge 'FILE' -o a.exr", "import a.json 'FILE'", "'FILE'",
-        "info '--FILE'"}) {
+        "render 'FILE' -o a.png", "merge 'FILE' -o a.exr", "cast a.json 'FILE'",
+        "import 'FILE' -o a.json", "'FILE'", "info '--FILE'"}) {
     std::string words = arguments;
     words.replace(words.find("FILE"), 4, folder / name);
     const ProgramOutcome outcome = run_minkray(words);

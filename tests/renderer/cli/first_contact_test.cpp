@@ -82,7 +82,7 @@ TEST(FirstContact, words_that_are_not_known_are_told_with_what_to_write) {
       {"render shape-zoo --smaples 4", "did you mean `--spp N`?"},
       {"render shape-zoo --toenmap agx", "did you mean `--tonemap`?"},
       {"render shape-zoo --no-such-thing", "minkray render --help lists all"},
-      {"import shape-zoo other.json", "unexpected argument `other.json`"},
+      {"cast queries.jsonl other.json", "unexpected argument `other.json`"},
       {"render shape-zoo -o a.exr --aov depth", "did you mean `Z`?"},
       {"render shape-zoo -o a.exr --aov normals", "did you mean `N`?"},
       {"render shape-zoo --tonemap aces", "did you mean `filmic`?"},
