@@ -71,12 +71,12 @@ int BodyTree::open(Box box, EightBoxes& boxes, Box* children) const {
                    upper = double{node.planes[1][axis][i]} - middle_[axis];
       boxes.middle[axis][i] = (lower + upper) / 2;
       boxes.half[axis][i] = (upper - lower) / 2;
-      boxes.normal[axis][i] = 0;
     }
-  if (!slabs_) return count;
-  const NodeSlabs& slabs = slabs_->of(number);
+  static constexpr NodeSlabs none = {};
+  const NodeSlabs& slabs = slabs_ ? slabs_->of(number) : none;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < bvh_width; ++i) boxes.normal[axis][i] = double{slabs.normals[axis][i]};
   for (int i = 0; i < bvh_width; ++i) {
-    for (int axis = 0; axis < 3; ++axis) boxes.normal[axis][i] = double{slabs.normals[axis][i]};
     boxes.low[i] = double{slabs.low[i]};
     boxes.high[i] = double{slabs.high[i]};
   }
