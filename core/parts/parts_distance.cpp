@@ -201,7 +201,7 @@ class LeastDistance {
   }
 
   const Affine<double>&pose_a_, &pose_b_;
-  const SignedDistanceOptions& options_;
+  const SignedDistanceOptions options_;
   const BodyTree a_, b_;
   const Sight sight_;
   PairWalk walk_;
