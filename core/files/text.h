@@ -97,8 +97,8 @@ inline std::string_view bare_number(std::string_view text) {
   return text;
 }
 
-/// Removes a number without a plus sign from the beginning of a text; false if there is none.
-/// `base` is the base of a whole number, if not 10.
+/// Reads and removes a number, without a plus sign, at the beginning of a text. Returns false if
+/// the text does not begin with a number. `base` is the base of a whole number, if not 10.
 template <class Number, class... Base>
 bool take_number(std::string_view& text, Number& number, Base... base) {
   const auto [end, error] = std::from_chars(text.begin(), text.end(), number, base...);

@@ -210,7 +210,7 @@ class Derivatives {
                                   frame.turn.transpose() * met.normal, near);
   }
 
-  /// The shape that is hit: of a compound, the part. Null for a part that is none.
+  /// The shape that is hit, or the part of a compound. Null if the compound has no such part.
   static const ContactShape* shape_of(const ContactBody& body, const Met& met) {
     if (!body.compound) return &body.shape;
     const auto part = static_cast<std::uint32_t>(met.part);

@@ -34,7 +34,7 @@ class Prover {
                              Certificate* found) const;
   /// True if the ray is proven not to hit the body before t_lo.
   bool keeps_off(const Body& body, const Ray<double>& ray, double t_lo) const;
-  /// The body that a hit claims to hit; null if there is none.
+  /// The body with the number in the hit; null if no body has this number.
   const Body* body_of(const minkray_hit& hit) const;
 
   const World& world_;
